@@ -1,0 +1,42 @@
+# `make run` flies the quickstart mission; `make test` is what CI runs.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+
+.PHONY: run test test-slow check format bench clean
+
+run: $(VENV)/ground.done
+	@mkdir -p out
+	$(BIN)/swarm launch quickstart --record out/quickstart.rrd --report out/quickstart.json
+
+test: check
+	$(BIN)/python -m pytest -n 2 -m "not slow" tests
+
+test-slow: $(VENV)/all.done
+	$(BIN)/python -m pytest -n 2 tests
+
+check: $(VENV)/all.done
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+
+format: $(VENV)/all.done
+	$(BIN)/ruff format .
+	$(BIN)/ruff check --fix .
+
+bench: $(VENV)/all.done
+	$(BIN)/python -m tests.benchmarks
+
+clean:
+	rm -rf $(VENV) out build dist *.egg-info
+
+$(BIN)/python:
+	$(PYTHON) -m venv $(VENV)
+
+$(VENV)/ground.done: pyproject.toml | $(BIN)/python
+	$(BIN)/pip install --quiet --editable '.[ground]'
+	@touch $@
+
+$(VENV)/all.done: pyproject.toml | $(BIN)/python
+	$(BIN)/pip install --quiet --editable '.[ground,study,dev]'
+	@touch $@ $(VENV)/ground.done

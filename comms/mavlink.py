@@ -1,0 +1,106 @@
+"""One end of a MAVLink 2 link, sans-io: bytes in, messages out; messages in, bytes out.
+
+    end = Endpoint(system_id=1)
+    end.send(dialect.MAVLink_heartbeat_message(2, 3, 81, 0, 3, 3))
+    wire = end.take()                    # every queued frame as one batch
+    messages = other_end.receive(wire)   # never raises, whatever the bytes are
+
+The framing is our own because pymavlink's parser loses up to seven good frames behind a stray start byte and lets its
+buffer grow without limit; packing, checksums and message types are pymavlink's.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pymavlink.dialects.v20 import ardupilotmega as dialect
+
+# pymavlink reads this switch from the environment, where any text, "0" too, turns the checksum off.
+dialect.MAVLINK_IGNORE_CRC = False
+
+START = 0xFD
+HEADER_BYTES = 10
+CRC_BYTES = 2
+SIGNATURE_BYTES = 13
+SIGNED_FLAG = 0x01
+MAX_FRAME_BYTES = HEADER_BYTES + 255 + CRC_BYTES + SIGNATURE_BYTES
+
+Message = Any  # a pymavlink message object; its fields depend on its type
+
+
+class Endpoint:
+    """The bytes side of one MAVLink party (one vehicle or one ground-side client) on one link.
+
+    Attributes:
+        sent, received: frames packed and frames accepted so far.
+        bad: rejected stretches of input (bad checksum, unknown message, rubbish between frames, MAVLink 1).
+    """
+
+    def __init__(self, *, system_id: int, component_id: int = 1) -> None:
+        if not 1 <= system_id <= 255:
+            raise ValueError(f"a MAVLink system id is 1 to 255, not {system_id}")
+        self._codec = dialect.MAVLink(None, srcSystem=system_id, srcComponent=component_id)
+        self._inbound = bytearray()
+        self._outbound: list[bytes] = []
+        self.system_id = system_id
+        self.component_id = component_id
+        self.sent = 0
+        self.received = 0
+        self.bad = 0
+
+    def send(self, message: Message) -> None:
+        """Queue one message; a field that does not fit its wire type is the caller's error and raises."""
+        codec = self._codec
+        self._outbound.append(message.pack(codec))
+        codec.seq = (codec.seq + 1) % 256
+        self.sent += 1
+
+    def take(self) -> bytes:
+        """Everything queued since the last call, in order."""
+        wire = b"".join(self._outbound)
+        self._outbound.clear()
+        return wire
+
+    def receive(self, data: bytes) -> list[Message]:
+        """The whole, checked messages that `data` completes. An unfinished frame waits for the next call."""
+        if not data and not self._inbound:
+            return []
+        buffer = self._inbound
+        buffer += data
+        messages: list[Message] = []
+        position, end = 0, len(buffer)
+        while True:
+            start = buffer.find(START, position)
+            if start != position and (start > position or position < end):
+                self.bad += 1  # rubbish before the next start byte, or up to the end
+            if start < 0:
+                position = end
+                break
+            position = start
+            if end - start < HEADER_BYTES + CRC_BYTES:
+                break
+            size = HEADER_BYTES + buffer[start + 1] + CRC_BYTES
+            if buffer[start + 2] & SIGNED_FLAG:
+                size += SIGNATURE_BYTES
+            if end - start < size:
+                break
+            message = self._decode(buffer[start : start + size])
+            if message is None:
+                self.bad += 1
+                position = start + 1  # that start byte was not one: look again right behind it
+            else:
+                messages.append(message)
+                position = start + size
+        del buffer[:position]
+        self.received += len(messages)
+        return messages
+
+    def _decode(self, frame: bytearray) -> Message | None:
+        if frame[2] & ~SIGNED_FLAG:
+            return None  # an incompatibility flag we do not know: the frame must be dropped (MAVLink 2 spec)
+        try:
+            message = self._codec.decode(frame)
+        except (dialect.MAVError, ValueError, IndexError, UnicodeDecodeError):
+            return None
+        # pymavlink returns ids it does not know without having checked their checksum.
+        return None if message.get_msgId() < 0 else message

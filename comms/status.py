@@ -1,0 +1,72 @@
+"""What an agent tells the observer: its status each tick. Never read by another agent, and not range-limited."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+
+import msgspec
+
+from comms.frames import Vec3
+
+
+class Activity(StrEnum):
+    """What an agent is doing, as a person watching would say it. One colour each, everywhere."""
+
+    PREPARING = "preparing"  # connect, preflight, takeoff, waiting for the others
+    EXPLORE = "explore"
+    FOLLOW = "follow"
+    CALLING = "calling for help"  # following, with a help call out
+    HELPING = "helping"
+    RETURNING = "returning"  # return, land, disarm
+    LANDED = "landed"
+    LOST = "lost"
+
+
+class Level(StrEnum):
+    """How serious a line of the event log is."""
+
+    INFO = "info"
+    WARNING = "warning"
+    ERROR = "error"
+
+
+class Event(msgspec.Struct, frozen=True):
+    """One line of the event log: something an agent or its autopilot said."""
+
+    level: Level
+    text: str
+
+
+class HelpCallStatus(msgspec.Struct, frozen=True):
+    """A help call that is out: for which target, and in how many seconds it is expected to be lost."""
+
+    target: int
+    loss_in_s: float
+
+
+class AgentStatus(msgspec.Struct, frozen=True, kw_only=True):
+    """One agent at one tick, as it sees itself. Positions in the mission's ENU frame, metres.
+
+    Attributes:
+        uid: the agent's number, from 0; its MAVLink system id is uid + 1.
+        position_m, velocity_m_s: own estimate, ENU; None until the autopilot has a position.
+        heading_rad: where the nose points, clockwise from north.
+        battery: remaining share, 0 to 1; None when unknown.
+        tags: targets it follows (owns). calls: help calls out. helping: the target it flies to for a mate, or None.
+        mates: the agents whose frames arrived this tick.
+        flight_mode: the autopilot's mode, in its own words ("GUIDED").
+        events: new since the last tick.
+    """
+
+    uid: int
+    activity: Activity
+    position_m: Vec3 | None = None
+    velocity_m_s: Vec3 | None = None
+    heading_rad: float = 0.0
+    battery: float | None = None
+    tags: tuple[int, ...] = ()
+    calls: tuple[HelpCallStatus, ...] = ()
+    helping: int | None = None
+    mates: tuple[int, ...] = ()
+    flight_mode: str = ""
+    events: tuple[Event, ...] = ()

@@ -1,0 +1,76 @@
+"""What an observer is told of one tick: every agent's status beside the truth. Metrics and recording read nothing else."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Protocol
+
+from comms.frames import Vec3
+from comms.status import AgentStatus, Event
+
+
+class Phase(StrEnum):
+    """Where the mission as a whole stands. Targets move, and coverage counts, in MISSION alone."""
+
+    PREPARE = "prepare"  # connect, preflight, takeoff
+    MISSION = "mission"
+    RETURN = "return"
+    DONE = "done"
+
+
+@dataclass(frozen=True, slots=True)
+class AgentTruth:
+    """Where an agent's vehicle really is: ENU metres, metres a second, heading clockwise from north."""
+
+    position_m: Vec3
+    velocity_m_s: Vec3
+    heading_rad: float
+
+
+@dataclass(frozen=True, slots=True)
+class TargetTruth:
+    """Where a target really is (ENU metres, on the ground), whether it is in the world now, and whether it is seen."""
+
+    x_m: float
+    y_m: float
+    present: bool
+    seen: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Observation:
+    """One tick of a mission, whole.
+
+    Attributes:
+        tick: 0 at the start of MISSION, negative before. time_s: tick times tick_s.
+        statuses, truths: one per agent, by uid. targets: one per target, by id.
+        links: pairs (a, b), a < b, of agents that heard each other in this tick (either direction).
+        coverage: share of the present targets seen now; None outside MISSION. coverage_mean: eq. 1 over n, so far.
+        utilization: coverage_mean x n / m.
+        tick_late_s: how late this tick began against the wall clock; 0 in lockstep.
+        radio: totals so far: frames sent, delivered, bytes.
+        events: what the mission itself has to say, e.g. "mission starts".
+    """
+
+    tick: int
+    time_s: float
+    phase: Phase
+    statuses: tuple[AgentStatus, ...]
+    truths: tuple[AgentTruth, ...]
+    targets: tuple[TargetTruth, ...]
+    links: tuple[tuple[int, int], ...] = ()
+    coverage: float | None = None
+    coverage_mean: float | None = None
+    utilization: float | None = None
+    tick_late_s: float = 0.0
+    radio_sent: int = 0
+    radio_delivered: int = 0
+    radio_bytes: int = 0
+    events: tuple[Event, ...] = ()
+
+
+class Observer(Protocol):
+    """Anything that wants to see every tick: the metrics, the recorder, the progress bar."""
+
+    def observe(self, observation: Observation) -> None: ...
