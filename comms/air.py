@@ -1,0 +1,92 @@
+"""The air between the agents: it alone hears every frame, and passes on what the link model lets through.
+
+Range is thus a fact of the world, not a promise of the receiver: an agent cannot read what did not reach it.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from comms import link
+from comms.keys import Keys, sender
+from comms.session import Bus, Put
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LinkModel:
+    """How far and how well frames travel: range (m), loss probability per frame and receiver, latency (s)."""
+
+    range_m: float
+    loss: float = 0.0
+    latency_s: float = 0.0
+
+
+@dataclass(slots=True)
+class AirCount:
+    """What happened to frames so far, counted per frame (sent, bytes) and per frame and receiver (the rest)."""
+
+    sent: int = 0
+    bytes: int = 0
+    delivered: int = 0
+    out_of_range: int = 0
+    lost: int = 0
+
+
+class Air:
+    """The medium of one mission. Frames gather in `tx/*`; `carry` moves them once a tick."""
+
+    def __init__(self, bus: Bus, *, keys: Keys, model: LinkModel, n_agents: int, tick_s: float, seed: int) -> None:
+        self._model = model
+        self._seed = seed
+        self._n_agents = n_agents
+        self._delay_ticks = link.delay_ticks(model.latency_s, tick_s)
+        self._spoken: list[tuple[int, bytes]] = []
+        self._under_way: deque[tuple[int, int, int, bytes]] = deque()  # (due tick, dst, src, payload), by due tick
+        self._receivers: list[list[Put]] = [
+            [bus.publisher(keys.rx(dst, src)) for src in range(n_agents)] for dst in range(n_agents)
+        ]
+        self.count = AirCount()
+        self.links: tuple[tuple[int, int], ...] = ()
+        bus.subscribe(keys.every_tx, self._hear)
+
+    def _hear(self, key: str, payload: bytes) -> None:
+        src = sender(key)
+        if src is not None and src < self._n_agents:
+            self._spoken.append((src, payload))
+
+    def carry(self, tick: int, positions_m: Sequence[tuple[float, float]]) -> int:
+        """Deliver what must be heard at tick + 1. Returns the number of deliveries.
+
+        Args:
+            tick: the tick whose frames have all been spoken.
+            positions_m: every agent's true (x, y) at that tick, by uid.
+        """
+        model, count = self._model, self.count
+        due = tick + self._delay_ticks
+        self._spoken.sort(key=lambda spoken: spoken[0])
+        for src, payload in self._spoken:
+            count.sent += 1
+            count.bytes += len(payload)
+            x, y = positions_m[src]
+            for dst, (other_x, other_y) in enumerate(positions_m):
+                if dst == src:
+                    continue
+                if not link.in_range(other_x - x, other_y - y, model.range_m):
+                    count.out_of_range += 1
+                elif not link.survives(self._seed, tick, src, dst, model.loss):
+                    count.lost += 1
+                else:
+                    self._under_way.append((due, dst, src, payload))
+        self._spoken.clear()
+        delivered = 0
+        links = set()
+        while self._under_way and self._under_way[0][0] <= tick + 1:
+            _, dst, src, payload = self._under_way.popleft()
+            self._receivers[dst][src](payload)
+            links.add((src, dst) if src < dst else (dst, src))
+            delivered += 1
+        count.delivered += delivered
+        self.links = tuple(sorted(links))
+        return delivered

@@ -1,0 +1,75 @@
+"""An agent's radio: the small port through which it speaks and hears. What arrives is checked before it is believed."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass
+from functools import lru_cache
+
+from comms import codec
+from comms.keys import Keys, sender
+from comms.messages import Frame
+from comms.session import Bus
+
+MAX_WAITING = 4096  # frames; beyond it the oldest go: a radio that nobody drains must not eat the memory
+
+# Within one process a frame reaches several agents as the same bytes: decode it once.
+_decode = lru_cache(maxsize=1024)(codec.decode)
+
+
+@dataclass(slots=True)
+class RadioCount:
+    """What arrived so far: accepted frames, and those refused, by reason."""
+
+    accepted: int = 0
+    bad: int = 0  # not a frame, or not from whom its key says
+    stale: int = 0  # older than its own time to live
+    replayed: int = 0  # sequence number not above the last one heard from that sender
+
+
+class Radio:
+    """Agent `uid`'s radio on a bus: `send` a frame, `drain` what has arrived."""
+
+    def __init__(self, bus: Bus, *, keys: Keys, uid: int) -> None:
+        self._put = bus.publisher(keys.tx(uid))
+        self._arrived: deque[tuple[str, bytes]] = deque(maxlen=MAX_WAITING)
+        self._last_seq: dict[int, int] = {}
+        self.count = RadioCount()
+        bus.subscribe(keys.every_rx(uid), lambda key, payload: self._arrived.append((key, payload)))
+
+    @property
+    def waiting(self) -> int:
+        """How many frames have arrived and were not drained yet."""
+        return len(self._arrived)
+
+    def send(self, frame: Frame) -> None:
+        """Speak: one frame, to whoever is in range."""
+        self._put(codec.encode(frame))
+
+    def drain(self, now_s: float) -> list[Frame]:
+        """The believable frames since the last call, sorted by (src, seq). Never raises on what arrived."""
+        frames = []
+        while self._arrived:
+            key, payload = self._arrived.popleft()
+            frame = _decode(payload)
+            if frame is None or frame.src != sender(key):
+                self.count.bad += 1
+            elif now_s - frame.sent_at_s > frame.ttl_s:
+                self.count.stale += 1
+            else:
+                frames.append(frame)
+        frames.sort(key=_by_sender)
+        fresh = [frame for frame in frames if self._is_new(frame)]
+        self.count.accepted += len(fresh)
+        return fresh
+
+    def _is_new(self, frame: Frame) -> bool:
+        if frame.seq <= self._last_seq.get(frame.src, -1):
+            self.count.replayed += 1
+            return False
+        self._last_seq[frame.src] = frame.seq
+        return True
+
+
+def _by_sender(frame: Frame) -> tuple[int, int]:
+    return frame.src, frame.seq
