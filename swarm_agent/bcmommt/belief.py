@@ -1,0 +1,238 @@
+"""What one agent knows: a table with a row per target, a row per mate and a row per cell of the arena.
+
+Nothing enters but what this agent senses (`see`) and what reaches its radio (the `hear_*` rules). Everything decided
+in a tick is computed from this table, the parameters, and passed-in chance.
+"""
+
+from __future__ import annotations
+
+from math import ceil, floor, sqrt
+from typing import Any, NamedTuple
+
+from swarm_agent.bcmommt.params import Params
+
+NOBODY = -1
+NEVER = -1.0e9  # an instant so long ago that every lease on it has run out
+FAR = 1.0e9  # a distance or a span beyond all others
+
+# Between two positions further apart in time than this, a target's velocity is not the quotient of the two.
+MAX_DIFFERENCE_S = 0.5
+
+Column = Any  # a list of numbers in flight, a numpy array in a study
+
+
+class Table(NamedTuple):
+    """One agent's knowledge, by column. Instants are mission-clock seconds; positions ENU metres.
+
+    Per target: the best known position and velocity with their instant; own distance now and one tick ago (FAR when
+    not sensed); own tag and call with the predicted time of loss; the best tag, the call and the answer heard of it,
+    each with its speaker (NOBODY if none) and instant; and since when it is lost to this agent, its last owner.
+    Per mate: position and instant of the last frame. Per cell: when it was last seen by anybody known of.
+    """
+
+    sensed: Column
+    x_m: Column
+    y_m: Column
+    vx_m_s: Column
+    vy_m_s: Column
+    known_at_s: Column
+    distance_m: Column
+    distance_before_m: Column
+    tagged: Column
+    calling: Column
+    loss_in_s: Column
+    lost_at_s: Column
+    owner: Column
+    owner_distance_m: Column
+    owner_at_s: Column
+    caller: Column
+    call_loss_at_s: Column
+    caller_at_s: Column
+    answerer: Column
+    answer_capture_s: Column
+    answerer_at_s: Column
+    mate_x_m: Column
+    mate_y_m: Column
+    mate_at_s: Column
+    cell_seen_at_s: Column
+
+
+def new_table(n_targets: int, n_agents: int, n_cells: int) -> Table:
+    """An agent that knows nothing yet, with list columns."""
+    n = n_targets
+    return Table(
+        sensed=[False] * n,
+        x_m=[0.0] * n,
+        y_m=[0.0] * n,
+        vx_m_s=[0.0] * n,
+        vy_m_s=[0.0] * n,
+        known_at_s=[NEVER] * n,
+        distance_m=[FAR] * n,
+        distance_before_m=[FAR] * n,
+        tagged=[False] * n,
+        calling=[False] * n,
+        loss_in_s=[FAR] * n,
+        lost_at_s=[NEVER] * n,
+        owner=[NOBODY] * n,
+        owner_distance_m=[FAR] * n,
+        owner_at_s=[NEVER] * n,
+        caller=[NOBODY] * n,
+        call_loss_at_s=[NEVER] * n,
+        caller_at_s=[NEVER] * n,
+        answerer=[NOBODY] * n,
+        answer_capture_s=[FAR] * n,
+        answerer_at_s=[NEVER] * n,
+        mate_x_m=[0.0] * n_agents,
+        mate_y_m=[0.0] * n_agents,
+        mate_at_s=[NEVER] * n_agents,
+        cell_seen_at_s=[NEVER] * n_cells,
+    )
+
+
+def begin_tick(t: Table) -> None:
+    """Forget what was sensed one tick ago, but for the distances: they are what mates will compare theirs with."""
+    for j in range(len(t.sensed)):
+        t.distance_before_m[j] = t.distance_m[j]
+        t.distance_m[j] = FAR
+        t.sensed[j] = False
+
+
+def see(t: Table, j: int, x: float, y: float, me_x: float, me_y: float, now: float) -> None:
+    """Target j is sensed at (x, y). Its velocity is the quotient of this and the last known position, if recent."""
+    age = now - t.known_at_s[j]
+    if 0.0 < age <= MAX_DIFFERENCE_S:
+        t.vx_m_s[j] = (x - t.x_m[j]) / age
+        t.vy_m_s[j] = (y - t.y_m[j]) / age
+    elif age > MAX_DIFFERENCE_S:
+        t.vx_m_s[j] = 0.0
+        t.vy_m_s[j] = 0.0
+    t.x_m[j] = x
+    t.y_m[j] = y
+    t.known_at_s[j] = now
+    t.sensed[j] = True
+    dx, dy = x - me_x, y - me_y
+    # In whole millimetres, as mates will read it: both sides of a comparison must hold the same number.
+    t.distance_m[j] = floor(sqrt(dx * dx + dy * dy) * 1000.0 + 0.5) / 1000.0
+
+
+def hear_mate(t: Table, mate: int, x: float, y: float, at: float) -> None:
+    """A frame of `mate`, sent from (x, y) at `at`. It is whole: what it does not repeat, the mate has withdrawn."""
+    t.mate_x_m[mate] = x
+    t.mate_y_m[mate] = y
+    t.mate_at_s[mate] = at
+    for j in range(len(t.owner)):
+        if t.owner[j] == mate:
+            t.owner[j] = NOBODY
+        if t.caller[j] == mate:
+            t.caller[j] = NOBODY
+        if t.answerer[j] == mate:
+            t.answerer[j] = NOBODY
+
+
+def hear_position(t: Table, j: int, x: float, y: float, vx: float, vy: float, at: float) -> None:
+    """Somebody saw target j at (x, y) at the instant `at`."""
+    if at > t.known_at_s[j]:
+        t.x_m[j] = x
+        t.y_m[j] = y
+        t.vx_m_s[j] = vx
+        t.vy_m_s[j] = vy
+        t.known_at_s[j] = at
+
+
+def hear_tag(t: Table, p: Params, j: int, mate: int, distance: float, at: float) -> None:
+    """`mate` claims target j from `distance` away. Of several claims the nearest counts."""
+    if not (
+        alive(t.owner[j], t.owner_at_s[j], p.tag_lease_s, at)
+        and outranks(t.owner_distance_m[j], t.owner[j], distance, mate)
+    ):
+        t.owner[j] = mate
+        t.owner_distance_m[j] = distance
+        t.owner_at_s[j] = at
+
+
+def hear_call(t: Table, p: Params, j: int, mate: int, loss_at: float, at: float) -> None:
+    """`mate` calls for help: it will lose target j at `loss_at`. Of several calls the most urgent counts."""
+    if not (
+        alive(t.caller[j], t.caller_at_s[j], p.help_lease_s, at)
+        and outranks(t.call_loss_at_s[j], t.caller[j], loss_at, mate)
+    ):
+        t.caller[j] = mate
+        t.call_loss_at_s[j] = loss_at
+        t.caller_at_s[j] = at
+
+
+def hear_answer(t: Table, p: Params, j: int, mate: int, capture: float, at: float) -> None:
+    """`mate` answers the call for target j and will have it in `capture` seconds. The quickest answer counts."""
+    if not (
+        alive(t.answerer[j], t.answerer_at_s[j], p.help_lease_s, at)
+        and outranks(t.answer_capture_s[j], t.answerer[j], capture, mate)
+    ):
+        t.answerer[j] = mate
+        t.answer_capture_s[j] = capture
+        t.answerer_at_s[j] = at
+
+
+def alive(speaker: int, at: float, lease: float, now: float) -> bool:
+    """Whether something said at `at` still holds. Claims, calls and answers are leases: they expire unless renewed."""
+    return speaker != NOBODY and now - at <= lease + 1e-6
+
+
+def outranks(value: float, speaker: int, other_value: float, other_speaker: int) -> bool:
+    """The smaller value wins (distance, time to capture, time of loss); equal values go to the lower agent id."""
+    return value < other_value or (value == other_value and speaker < other_speaker)
+
+
+def owned_by_mate(t: Table, p: Params, j: int, now: float) -> bool:
+    """Whether a mate's claim on target j is in force."""
+    return alive(t.owner[j], t.owner_at_s[j], p.tag_lease_s, now)
+
+
+def predicted_x(t: Table, j: int, now: float) -> float:
+    """Where target j is now, east: its last known position continued linearly (predictive tracking, section 4.1)."""
+    x: float = t.x_m[j] + t.vx_m_s[j] * (now - t.known_at_s[j])
+    return x
+
+
+def predicted_y(t: Table, j: int, now: float) -> float:
+    """Where target j is now, north."""
+    y: float = t.y_m[j] + t.vy_m_s[j] * (now - t.known_at_s[j])
+    return y
+
+
+def cell_columns(p: Params) -> int:
+    """How many cells of side r_s lie side by side, east-west, over the arena."""
+    return max(1, ceil(2.0 * p.arena.half_x_m / p.sensing_range_m))
+
+
+def cell_rows(p: Params) -> int:
+    """How many cells of side r_s lie side by side, north-south, over the arena."""
+    return max(1, ceil(2.0 * p.arena.half_y_m / p.sensing_range_m))
+
+
+def cell_x(p: Params, cell: int) -> float:
+    """The center of a cell, east."""
+    columns = cell_columns(p)
+    return ((cell % columns) + 0.5) * 2.0 * p.arena.half_x_m / columns - p.arena.half_x_m
+
+
+def cell_y(p: Params, cell: int) -> float:
+    """The center of a cell, north."""
+    columns, rows = cell_columns(p), cell_rows(p)
+    return ((cell // columns) + 0.5) * 2.0 * p.arena.half_y_m / rows - p.arena.half_y_m
+
+
+def see_cells(t: Table, p: Params, x: float, y: float, at: float) -> None:
+    """An agent at (x, y) sees the cells whose centers are within r_s: own sight, or a mate's as its frame tells."""
+    columns, rows = cell_columns(p), cell_rows(p)
+    width, height = 2.0 * p.arena.half_x_m / columns, 2.0 * p.arena.half_y_m / rows
+    reach = p.sensing_range_m
+    first_column = max(0, floor((x - reach + p.arena.half_x_m) / width))
+    last_column = min(columns - 1, floor((x + reach + p.arena.half_x_m) / width))
+    first_row = max(0, floor((y - reach + p.arena.half_y_m) / height))
+    last_row = min(rows - 1, floor((y + reach + p.arena.half_y_m) / height))
+    for row in range(first_row, last_row + 1):
+        for column in range(first_column, last_column + 1):
+            cell = row * columns + column
+            dx, dy = cell_x(p, cell) - x, cell_y(p, cell) - y
+            if dx * dx + dy * dy <= reach * reach and at > t.cell_seen_at_s[cell]:
+                t.cell_seen_at_s[cell] = at

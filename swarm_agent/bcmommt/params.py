@@ -1,0 +1,67 @@
+"""The constants of the algorithm. Names, units and defaults: see the mission reference."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import NamedTuple
+
+from comms.arena import Arena
+
+
+class Predictor(IntEnum):
+    """How the time of loss is predicted."""
+
+    NONE = 0  # never: no help is called
+    DIRECT = 1  # eq. 10
+
+
+class Call(IntEnum):
+    """For which of several tags help is called."""
+
+    PREDICTED = 0  # those predicted to be lost within the horizon
+    ALL_BUT_NEAREST = 1  # all others too (Algorithm 1, where only the first loss is known)
+
+
+class Gate(IntEnum):
+    """Which calls may be answered."""
+
+    IN_TIME = 0  # capture comes before loss
+    ALWAYS = 1
+
+
+class Capture(IntEnum):
+    """How the time to capture is estimated."""
+
+    WORST_CASE = 0  # eq. 13: the target flees straight away from the helper
+    INTERCEPT = 1  # eq. 11: it keeps its course, continued linearly
+
+
+class Explore(IntEnum):
+    """Where to fly with nothing to follow and nobody to help."""
+
+    PERSISTENT_WALK = 0
+    STALE_FIRST = 1
+
+
+class Params(NamedTuple):
+    """Everything the rules read that does not change during a mission. Distances in m, times in s, speeds in m/s."""
+
+    arena: Arena
+    tick_s: float
+    sensing_range_m: float
+    agent_speed_m_s: float
+    target_speed_m_s: float
+    standoff_m: float
+    turn_time_s: float
+    horizon_s: float
+    help_margin_s: float
+    tag_lease_s: float
+    help_lease_s: float
+    memory_s: float
+    follow_gain_per_s: float
+    predictor: int
+    call: int
+    gate: int
+    capture: int
+    commitment: bool
+    explore: int
