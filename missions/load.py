@@ -1,0 +1,182 @@
+"""Mission files to missions: every mistake of a file is found at once, and named with its line and key.
+
+mission = load_mission("quickstart")  # a bundled mission, or a path
+mission = load_mission("my.yaml", overrides=[Override("agents.count=5")])
+text = dump_mission(mission)  # YAML with every key; loads to the same mission
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from copy import deepcopy
+from difflib import get_close_matches
+from io import StringIO
+from pathlib import Path as FilePath
+from typing import Any
+
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails
+from ruamel.yaml import YAML
+
+from missions.document import Document, read_document
+from missions.keys import Key, allowed, chooser, find_key
+from missions.mission import Mission
+from missions.overrides import Override, apply_override
+from missions.problems import Mark, MissionError, Path, Problem, did_you_mean, shown
+from missions.rules import RULES, Rule
+
+LIBRARY = FilePath(__file__).parent / "library"
+
+_MAX_BYTES = 1_000_000
+_TRACKS_FILE: Path = ("targets", "file")
+
+
+def bundled_names() -> list[str]:
+    """The missions that come with the package, in alphabetical order."""
+    return sorted(path.stem for path in LIBRARY.glob("*.yaml"))
+
+
+def load_mission(name_or_path: str, *, overrides: Iterable[Override] = ()) -> Mission:
+    """The mission in a file, or the bundled one of that name, with `overrides` put on top.
+
+    Raises:
+        MissionError: no such mission, or mistakes in it or in the overrides: all of them.
+    """
+    bundled = name_or_path in bundled_names()
+    path = LIBRARY / f"{name_or_path}.yaml" if bundled else FilePath(name_or_path)
+    source = path.name if bundled else name_or_path
+    return parse_mission(_read(path, source), source=source, folder=path.parent, overrides=overrides)
+
+
+def parse_mission(data: bytes, *, source: str, folder: FilePath, overrides: Iterable[Override] = ()) -> Mission:
+    """`load_mission` of a file's bytes. `source` names it in problems; its relative paths start at `folder`."""
+    document = read_document(data, source=source)
+    _anchor(document, folder)
+    for override in overrides:
+        apply_override(document, override)
+    _anchor(document, FilePath.cwd())
+    mission, problems = _check(document)
+    problems = sorted([*document.problems, *problems], key=lambda problem: _in_file_order(problem, source))
+    if mission is None or problems:
+        raise MissionError(problems)
+    return mission
+
+
+def dump_mission(mission: Mission) -> str:
+    """The whole mission as YAML, defaults written out."""
+    out = StringIO()
+    yaml = YAML()
+    yaml.width = 120
+    yaml.dump(mission.model_dump(mode="json"), out)
+    return out.getvalue()
+
+
+def _read(path: FilePath, source: str) -> bytes:
+    try:
+        with path.open("rb") as file:
+            data = file.read(_MAX_BYTES + 1)
+    except FileNotFoundError as error:
+        bundled = bundled_names()
+        hint = did_you_mean(path.stem, bundled, at_most=3)
+        choices = f"the path of a mission file, or a bundled mission ({', '.join(bundled)}){hint}"
+        raise MissionError([Problem(Mark(source), (), "no such mission", choices)]) from error
+    except (OSError, ValueError) as error:
+        got = "a directory" if isinstance(error, IsADirectoryError) else f"an unreadable file ({error})"
+        raise MissionError([Problem(Mark(source), (), got, "the path of a mission file")]) from error
+    if len(data) > _MAX_BYTES:
+        raise MissionError([Problem(Mark(source), (), "more than a megabyte", "the path of a mission file")])
+    return data
+
+
+def _anchor(document: Document, folder: FilePath) -> None:
+    """Make a relative path of tracks absolute: from here on it means the same wherever the mission is used."""
+    file = document.value(_TRACKS_FILE)
+    if isinstance(file, str) and file:
+        if file.startswith("~/"):
+            file = os.path.expanduser(file)
+        document.values["targets"]["file"] = str((folder / file).absolute())
+
+
+def _check(document: Document) -> tuple[Mission | None, list[Problem]]:
+    """The mission, None if a key is wrong; and the problems of single keys and of the rules between them."""
+    unread = {problem.path for problem in document.problems}
+    mission, errors = _validated(document.values)
+    found = [_key_problem(document, error) for error in errors]
+    # What could not be read stands as null, which is not a second mistake.
+    found = [problem for problem in found if problem.path not in unread or problem.got != "null"]
+    wrong = unread | {path for error in errors for path in _in_doubt(find_key(error["loc"]))}
+    return mission, found + _broken_rules(document, mission or _mended(document, wrong), wrong)
+
+
+def _validated(values: dict[str, Any]) -> tuple[Mission | None, list[ErrorDetails]]:
+    try:
+        return Mission.model_validate(values), []
+    except ValidationError as error:
+        return None, error.errors(include_url=False, include_context=False)
+
+
+def _key_problem(document: Document, error: ErrorDetails) -> Problem:
+    key = find_key(error["loc"])
+    mark = document.mark(key.path)
+    if key.field is None:
+        known = list(key.section.model_fields)
+        return Problem(mark, key.path, "an unknown key", ", ".join(known) + did_you_mean(key.path[-1], known))
+    chosen = chooser(key.field)
+    if chosen is not None and isinstance(error["input"], dict):
+        path = (*key.path, chosen[0])
+        return Problem(document.mark(path), path, shown(document.value(path)), chosen[1])
+    got = "nothing" if error["type"] == "missing" else shown(error["input"])
+    return Problem(mark, key.path, got, allowed(key.field))
+
+
+def _in_doubt(key: Key) -> list[Path]:
+    """The keys whose values are not known because `key` is wrong: an unknown key may be any beside it, misspelled."""
+    if key.field is not None:
+        return [key.path]
+    if len(key.path) > 1:
+        return [key.path, key.path[:-1]]
+    return [key.path, *((near,) for near in get_close_matches(key.path[0], Mission.model_fields))]
+
+
+def _mended(document: Document, wrong: set[Path]) -> Mission | None:
+    """The mission with default values where keys are wrong, so that the rules between the others can be checked."""
+    values = deepcopy(document.values)
+    for path in wrong:
+        section: Any = values
+        for name in path[:-1]:
+            section = section.get(name) if isinstance(section, dict) else None
+        if path and isinstance(section, dict):
+            section.pop(path[-1], None)
+    values.setdefault("name", "unnamed")
+    mission, errors = _validated(values)
+    if mission is None:  # a key that has no default went: its whole section has to
+        for error in errors:
+            wrong.add((str(error["loc"][0]),))
+            values.pop(str(error["loc"][0]), None)
+        mission, _ = _validated(values)
+    return mission
+
+
+def _broken_rules(document: Document, mission: Mission | None, wrong: set[Path]) -> list[Problem]:
+    if mission is None:
+        return []
+    checkable = [rule for rule in RULES if not any(path[:n] in wrong for path in rule.paths for n in range(1, 9))]
+    broken = [(rule, rule.allowed(mission)) for rule in checkable]
+    return [_rule_problem(document, mission, rule, text) for rule, text in broken if text is not None]
+
+
+def _rule_problem(document: Document, mission: Mission, rule: Rule, text: str) -> Problem:
+    blamed = rule.paths[0]
+    value: Any = mission.model_dump(mode="json")
+    for name in blamed:
+        value = value[name]
+    if blamed in document.marks:
+        return Problem(document.marks[blamed], blamed, shown(value), text)
+    # A default is at odds with what was given elsewhere: that is the line to look at.
+    given = next((path for path in rule.paths if path in document.marks), ())
+    return Problem(document.mark(given), blamed, f"{shown(value)} (the default)", text)
+
+
+def _in_file_order(problem: Problem, source: str) -> tuple[bool, int]:
+    return problem.mark.source != source, problem.mark.line or 0

@@ -1,0 +1,44 @@
+"""Values given on the command line: `--set agents.count=5` puts 5, read as YAML, at that key of the document."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from missions.document import Document, read_value
+from missions.problems import Mark, MissionError, Path, Problem, shown
+
+_FORM = "KEY=VALUE, such as agents.count=5"
+
+
+@dataclass(frozen=True, slots=True)
+class Override:
+    """One `KEY=VALUE`, and the option it was given with, which names it in problems."""
+
+    text: str
+    option: str = "--set"
+
+
+def apply_override(document: Document, override: Override) -> None:
+    """Put the value into the document; a later one wins. What is wrong becomes the document's problem.
+
+    Whether there is such a key, and whether the value is allowed, shows when the whole document is checked.
+    """
+    mark = Mark(override.option)
+    key, equals, text = override.text.partition("=")
+    path: Path = tuple(key.strip().split("."))
+    if not equals or not all(path):
+        document.problems.append(Problem(mark, (), shown(override.text), _FORM))
+        return
+    try:
+        value = read_value(document, path, text, mark=mark)
+    except MissionError as error:
+        document.problems += [Problem(mark, path, problem.got, problem.allowed) for problem in error.problems]
+        return
+    section = document.values
+    for depth, name in enumerate(path[:-1], start=1):
+        inner = section.get(name)
+        if not isinstance(inner, dict):
+            inner = section[name] = {}
+            document.marks[path[:depth]] = mark
+        section = inner
+    section[path[-1]] = value

@@ -1,0 +1,156 @@
+"""Rules between the keys of a mission: each names the key it blames, the keys it compares with, and what is allowed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from comms.arena import edge_distance_m
+from comms.chance import PLACE_AGENT
+from missions.mission import Mission, MovingTargets, TrackTargets
+from missions.problems import Path, shown
+from vehicle_sim.placement import scatter
+
+_TOLERANCE = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """`allowed(mission)` is None where the rule holds, and otherwise what it allows at `key`, in words."""
+
+    key: str
+    others: tuple[str, ...]
+    allowed: Callable[[Mission], str | None]
+
+    @property
+    def paths(self) -> tuple[Path, ...]:
+        """Every key the rule looks at, the blamed one first."""
+        return tuple(tuple(key.split(".")) for key in (self.key, *self.others))
+
+
+def start_places(mission: Mission) -> tuple[tuple[float, float], ...] | None:
+    """Where agents start, by uid: meters east and north of home; None if the mission's chance finds no room for all."""
+    deployment = mission.agents.deployment
+    try:
+        return scatter(
+            count=mission.agents.count,
+            radius_m=deployment.radius_m,
+            spacing_m=deployment.spacing_m,
+            seed=mission.seed,
+            purpose=PLACE_AGENT,
+        )
+    except ValueError:
+        return None
+
+
+def _mission_has_ticks(mission: Mission) -> str | None:
+    if mission.duration_s >= mission.tick_s:
+        return None
+    return f"at least one tick_s ({shown(mission.tick_s)})"
+
+
+def _agents_outrun_targets(mission: Mission) -> str | None:
+    targets = mission.targets
+    if not isinstance(targets, MovingTargets) or targets.motion == "static":
+        return None
+    if mission.agents.speed_m_s > targets.speed_m_s:
+        return None
+    return f"more than targets.speed_m_s ({shown(targets.speed_m_s)}) of {targets.motion} targets"
+
+
+def _agents_start_inside(mission: Mission) -> str | None:
+    return _inside(mission, mission.agents.deployment.radius_m)
+
+
+def _targets_start_inside(mission: Mission) -> str | None:
+    targets = mission.targets
+    return _inside(mission, targets.deployment.radius_m) if isinstance(targets, MovingTargets) else None
+
+
+def _inside(mission: Mission, radius_m: float) -> str | None:
+    inner_m = edge_distance_m(mission.arena.area, 0.0, 0.0)
+    if radius_m <= inner_m:
+        return None
+    return f"at most {shown(inner_m)}, the largest circle inside the arena"
+
+
+def _agents_fit(mission: Mission) -> str | None:
+    agents = mission.agents
+    if start_places(mission) is not None:
+        return None
+    return f"less, to fit {agents.count} agents into agents.deployment.radius_m ({shown(agents.deployment.radius_m)})"
+
+
+def _mates_hear_beyond_sight(mission: Mission) -> str | None:
+    if mission.radio.range_m > mission.agents.sensing.range_m:
+        return None
+    return f"more than agents.sensing.range_m ({shown(mission.agents.sensing.range_m)})"
+
+
+def _ideal_radio_loses_nothing(mission: Mission) -> str | None:
+    return None if mission.radio.mode == "sim" or mission.radio.loss == 0 else "0 where radio.mode is ideal"
+
+
+def _ideal_radio_is_prompt(mission: Mission) -> str | None:
+    return None if mission.radio.mode == "sim" or mission.radio.latency_s == 0 else "0 where radio.mode is ideal"
+
+
+def _standoff_in_sight(mission: Mission) -> str | None:
+    if mission.policy.standoff_m < mission.agents.sensing.range_m:
+        return None
+    return f"less than agents.sensing.range_m ({shown(mission.agents.sensing.range_m)})"
+
+
+def _tag_lease_is_renewable(mission: Mission) -> str | None:
+    return _renewable(mission, mission.policy.tag_lease_s)
+
+
+def _help_lease_is_renewable(mission: Mission) -> str | None:
+    return _renewable(mission, mission.policy.help_lease_s)
+
+
+def _renewable(mission: Mission, lease_s: float) -> str | None:
+    least_s = 2 * mission.tick_s + mission.radio.latency_s
+    if lease_s >= least_s - _TOLERANCE:
+        return None
+    return f"at least two tick_s and radio.latency_s ({shown(least_s)}), or it ends before it is renewed"
+
+
+def _vehicles_keep_up(mission: Mission) -> str | None:
+    if mission.vehicle.limits.speed_m_s >= mission.agents.speed_m_s:
+        return None
+    return f"at least agents.speed_m_s ({shown(mission.agents.speed_m_s)})"
+
+
+def _vehicles_beat_the_wind(mission: Mission) -> str | None:
+    wind, most_m_s = mission.vehicle.wind, mission.vehicle.limits.speed_m_s
+    if wind.speed_m_s + wind.gust_m_s < most_m_s:
+        return None
+    return (
+        f"with vehicle.wind.gust_m_s ({shown(wind.gust_m_s)}), less than vehicle.limits.speed_m_s ({shown(most_m_s)})"
+    )
+
+
+def _tracks_exist(mission: Mission) -> str | None:
+    targets = mission.targets
+    return "a file that exists" if isinstance(targets, TrackTargets) and not targets.file.is_file() else None
+
+
+_ARENA = ("arena", "arena.radius_m", "arena.width_m", "arena.height_m")
+
+RULES = (
+    Rule("duration_s", ("tick_s",), _mission_has_ticks),
+    Rule("agents.speed_m_s", ("targets.speed_m_s", "targets.motion"), _agents_outrun_targets),
+    Rule("agents.deployment.radius_m", _ARENA, _agents_start_inside),
+    Rule("targets.deployment.radius_m", _ARENA, _targets_start_inside),
+    Rule("agents.deployment.spacing_m", ("agents.deployment.radius_m", "agents.count", "seed"), _agents_fit),
+    Rule("radio.range_m", ("agents.sensing.range_m",), _mates_hear_beyond_sight),
+    Rule("radio.loss", ("radio.mode",), _ideal_radio_loses_nothing),
+    Rule("radio.latency_s", ("radio.mode",), _ideal_radio_is_prompt),
+    Rule("policy.standoff_m", ("agents.sensing.range_m",), _standoff_in_sight),
+    Rule("policy.tag_lease_s", ("tick_s", "radio.latency_s"), _tag_lease_is_renewable),
+    Rule("policy.help_lease_s", ("tick_s", "radio.latency_s"), _help_lease_is_renewable),
+    Rule("vehicle.limits.speed_m_s", ("agents.speed_m_s",), _vehicles_keep_up),
+    Rule("vehicle.wind.speed_m_s", ("vehicle.wind.gust_m_s", "vehicle.limits.speed_m_s"), _vehicles_beat_the_wind),
+    Rule("targets.file", (), _tracks_exist),
+)
