@@ -47,6 +47,14 @@ class Answer(NamedTuple):
     capture_s: float
 
 
+class Sighting(NamedTuple):
+    """What an agent's own sensor reports of one target: where it is, ENU metres. Not said to anybody."""
+
+    target: int
+    x_m: float
+    y_m: float
+
+
 class Frame(NamedTuple):
     """All that one agent says in one tick. Atomic: it arrives whole or not at all.
 

@@ -19,13 +19,13 @@ class Mind(NamedTuple):
     """What an agent carries from tick to tick beside its table.
 
     Attributes:
-        mode: a `Mode`. helping: the target whose call it answers, or NOBODY.
+        mode: follow, help or explore. helping: the target whose call it answers, or NOBODY.
         capture_s: its time to capture that target, as broadcast (whole milliseconds).
         heading_x, heading_y: unit vector of the persistent walk.
         goal: the cell it explores next, or NOBODY, chosen at goal_since_s.
     """
 
-    mode: int
+    mode: Mode
     helping: int
     capture_s: float
     heading_x: float
@@ -36,7 +36,7 @@ class Mind(NamedTuple):
 
 def new_mind(heading_x: float, heading_y: float) -> Mind:
     """A robot begins in Explore, walking along (heading_x, heading_y)."""
-    return Mind(int(Mode.EXPLORE), NOBODY, FAR, heading_x, heading_y, NOBODY, NEVER)
+    return Mind(Mode.EXPLORE, NOBODY, FAR, heading_x, heading_y, NOBODY, NEVER)
 
 
 def decide(
@@ -60,15 +60,15 @@ def decide(
 
     if n_tags > 0:
         vx, vy = follow(t, p, x, y)
-        return _next(mind, int(Mode.FOLLOW), NOBODY, FAR), vx, vy
+        return _next(mind, Mode.FOLLOW, NOBODY, FAR), vx, vy
 
     if helping == NOBODY or not p.commitment:
         helping, capture = choose(t, p, me, x, y, helping, mind.capture_s, now)
     else:
         capture = time_to_capture(t, p, helping, x, y, now)
     if helping == NOBODY:
-        return _explore(t, p, _next(mind, int(Mode.EXPLORE), NOBODY, FAR), me, x, y, now, seed, tick)
-    mind = _next(mind, int(Mode.HELP), helping, floor(capture * 1000.0 + 0.5) / 1000.0)
+        return _explore(t, p, _next(mind, Mode.EXPLORE, NOBODY, FAR), me, x, y, now, seed, tick)
+    mind = _next(mind, Mode.HELP, helping, floor(capture * 1000.0 + 0.5) / 1000.0)
     if must_go(t, p, helping, capture, now):
         vx, vy = approach(t, p, helping, x, y, now)
         return mind, vx, vy
@@ -82,7 +82,7 @@ def still_helping(t: Table, p: Params, mind: Mind, me: int, now: float) -> int:
     return NOBODY
 
 
-def _next(mind: Mind, mode: int, helping: int, capture_s: float) -> Mind:
+def _next(mind: Mind, mode: Mode, helping: int, capture_s: float) -> Mind:
     return Mind(mode, helping, capture_s, mind.heading_x, mind.heading_y, mind.goal, mind.goal_since_s)
 
 

@@ -1,0 +1,168 @@
+"""One agent: the brain and its hands, sans-io. Values in, values out, once a tick.
+
+    agent = Agent(config)
+    output = agent.tick(now_s, order, sightings, inbox, telemetry)
+    radio.send(output.frame); link.write(output.wire); observer.tell(output.status)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from comms.messages import Frame, Sighting
+from comms.status import Activity, AgentStatus, HelpCallStatus
+from swarm_agent.autopilot import Fly, Intent, Phase, Pilot, PilotConfig, PilotState, Prepare, Return
+from swarm_agent.bcmommt.belief import NOBODY, begin_tick, cell_columns, cell_rows, new_table, see
+from swarm_agent.bcmommt.modes import Mode
+from swarm_agent.bcmommt.params import Params
+from swarm_agent.bcmommt.speech import answers_said, calls_said, hear, tags_said
+from swarm_agent.bcmommt.step import decide, new_mind
+
+
+class Order(NamedTuple):
+    """What the mission wants of every agent in this tick.
+
+    Attributes:
+        mission_tick: ticks since the mission began, or None before it begins and after it ends.
+        come_home: the mission is over: return and land.
+    """
+
+    mission_tick: int | None = None
+    come_home: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AgentConfig:
+    """Everything that does not change during a mission.
+
+    Attributes:
+        heading: unit vector (east, north) in which the search begins. ttl_s: how long its frames are worth hearing.
+    """
+
+    uid: int
+    seed: int
+    params: Params
+    n_agents: int
+    n_targets: int
+    heading: tuple[float, float]
+    ttl_s: float
+    pilot: PilotConfig
+
+
+class Output(NamedTuple):
+    """What an agent does in a tick: says `frame` (None: silence), writes `wire` to its autopilot, shows `status`."""
+
+    frame: Frame | None
+    wire: bytes
+    status: AgentStatus
+
+
+class Agent:
+    """Agent `uid` of a mission. It knows what it senses, what reaches its radio, and what its autopilot tells."""
+
+    def __init__(self, config: AgentConfig) -> None:
+        p = config.params
+        self._config = config
+        self._table = new_table(config.n_targets, config.n_agents, cell_columns(p) * cell_rows(p))
+        self._mind = new_mind(*config.heading)
+        self._seq = 0
+        self.pilot = Pilot(config.pilot)
+
+    def tick(
+        self, now_s: float, order: Order, sightings: Sequence[Sighting], inbox: Sequence[Frame], telemetry: bytes
+    ) -> Output:
+        """One pass: take in, decide, speak, steer.
+
+        Args:
+            now_s: the mission clock. sightings: what the sensor sees now. inbox: the frames that arrived, by sender.
+            telemetry: bytes from the autopilot, up to this instant.
+        """
+        pilot = self.pilot
+        pilot.listen(now_s, telemetry)
+        state = pilot.state
+        frame: Frame | None = None
+        intent: Intent
+        if order.come_home:
+            intent = Return()
+        elif order.mission_tick is None or state.position_m is None or state.velocity_m_s is None:
+            intent = Prepare()
+        else:
+            self._perceive(now_s, state.position_m, sightings, inbox)
+            intent = self._decide(now_s, order.mission_tick, state.position_m)
+            frame = self._say(now_s, state.position_m, state.velocity_m_s)
+        wire = pilot.act(now_s, intent)
+        return Output(frame, wire, self._status(order, pilot.state, inbox))
+
+    def _perceive(
+        self, now_s: float, me: tuple[float, float, float], sightings: Sequence[Sighting], inbox: Sequence[Frame]
+    ) -> None:
+        table = self._table
+        begin_tick(table)
+        for frame in inbox:
+            hear(table, self._config.params, frame)
+        for target, x, y in sightings:
+            see(table, target, x, y, me[0], me[1], now_s)
+
+    def _decide(self, now_s: float, mission_tick: int, me: tuple[float, float, float]) -> Fly:
+        config = self._config
+        self._mind, east, north = decide(
+            self._table, config.params, self._mind, config.uid, me[0], me[1], now_s, config.seed, mission_tick
+        )
+        return Fly((east, north))
+
+    def _say(
+        self, now_s: float, position_m: tuple[float, float, float], velocity_m_s: tuple[float, float, float]
+    ) -> Frame:
+        table, params = self._table, self._config.params
+        self._seq += 1
+        return Frame(
+            self._config.uid,
+            self._seq,
+            now_s,
+            self._config.ttl_s,
+            position_m,
+            velocity_m_s,
+            tags_said(table),
+            calls_said(table, params, now_s),
+            answers_said(self._mind),
+        )
+
+    def _status(self, order: Order, state: PilotState, inbox: Sequence[Frame]) -> AgentStatus:
+        on_duty = order.mission_tick is not None and not order.come_home
+        table, horizon_s = self._table, self._config.params.horizon_s
+        calls = [j for j, calling in enumerate(table.calling) if calling] if on_duty else []
+        helping = self._mind.helping if on_duty and self._mind.helping != NOBODY else None
+        return AgentStatus(
+            uid=self._config.uid,
+            activity=self._activity(on_duty, bool(calls), state),
+            position_m=state.position_m,
+            velocity_m_s=state.velocity_m_s,
+            heading_rad=state.heading_rad,
+            battery=state.battery,
+            tags=tuple([j for j, mine in enumerate(table.tagged) if mine]) if on_duty else (),
+            calls=tuple(
+                [
+                    HelpCallStatus(j, min(table.loss_in_s[j], horizon_s) if table.tagged[j] else 0.0)
+                    for j in calls
+                ]
+            ),
+            helping=helping,
+            mates=tuple([frame.src for frame in inbox]),
+            flight_mode=state.flight_mode,
+            events=self.pilot.take_events(),
+        )
+
+    def _activity(self, on_duty: bool, calls: bool, state: PilotState) -> Activity:
+        if state.phase is Phase.DONE:
+            return Activity.LANDED
+        if state.phase is Phase.FAILED or state.link_lost:
+            return Activity.LOST
+        if state.phase in (Phase.RETURN, Phase.LAND):
+            return Activity.RETURNING
+        if not on_duty:
+            return Activity.PREPARING
+        if self._mind.mode is Mode.FOLLOW:
+            return Activity.CALLING if calls else Activity.FOLLOW
+        return Activity.HELPING if self._mind.mode is Mode.HELP else Activity.EXPLORE

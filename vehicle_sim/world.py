@@ -1,0 +1,46 @@
+"""The world: targets on the ground, and what each agent's sensor sees of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from comms.messages import Sighting
+from vehicle_sim.herd import Herd, Place
+from vehicle_sim.sensing import sees
+
+
+class World:
+    """Ground truth. It knows every target; what leaves it is only what some agent senses.
+
+    Attributes:
+        seen: per target, whether any agent saw it at the last `sense`.
+    """
+
+    def __init__(self, *, herd: Herd, sensing_range_m: float) -> None:
+        self.herd = herd
+        self._range_m = sensing_range_m
+        self.seen = [False] * len(herd.places)
+
+    @property
+    def places(self) -> Sequence[Place | None]:
+        """Where every target is, ENU metres; None while it is not in the world."""
+        return self.herd.places
+
+    def sense(self, agents: Sequence[Place]) -> list[list[Sighting]]:
+        """What each agent at its true (x, y) sees now, by uid; sightings in the order of target ids."""
+        range_m, seen = self._range_m, [False] * len(self.herd.places)
+        sightings: list[list[Sighting]] = [[] for _ in agents]
+        for target, place in enumerate(self.herd.places):
+            if place is None:
+                continue
+            x, y = place
+            for uid, (agent_x, agent_y) in enumerate(agents):
+                if sees(x - agent_x, y - agent_y, range_m):
+                    sightings[uid].append(Sighting(target, x, y))
+                    seen[target] = True
+        self.seen = seen
+        return sightings
+
+    def advance(self, tick: int, agents: Sequence[Place]) -> None:
+        """Targets decide from state `tick` and move to `tick` + 1."""
+        self.herd.advance(tick, [x for x, _ in agents], [y for _, y in agents])
