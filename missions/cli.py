@@ -1,0 +1,227 @@
+"""The command line: `swarm VERB ...`. Each verb is a function of its arguments that returns an exit code.
+
+Exit codes: 0 done, 1 the mission failed, 2 bad input, 130 stopped by Ctrl-C. Mistakes in a mission go to standard
+error, one line each. A verb imports what it runs when it runs, so that `swarm check` starts at once.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Callable, Sequence
+from math import inf, isfinite
+from pathlib import Path
+
+from missions.load import bundled_names, load_mission
+from missions.mission import Mission
+from missions.options import LaunchOptions
+from missions.overrides import Override
+from missions.problems import MissionError
+
+DONE, FAILED, BAD_INPUT, STOPPED = 0, 1, 2, 130
+
+Verb = Callable[[argparse.Namespace], int]
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command line (without the program's name; default: the process's own) and return its exit code."""
+    try:
+        options = _parser().parse_args(arguments)
+    except SystemExit as stop:  # argparse has printed help or what is wrong
+        return stop.code if isinstance(stop.code, int) else BAD_INPUT
+    verb: Verb = options.verb
+    try:
+        return verb(options)
+    except MissionError as error:
+        sys.stderr.write(f"{error}\n")
+        return BAD_INPUT
+    except KeyboardInterrupt:
+        return STOPPED
+
+
+def launch(options: argparse.Namespace) -> int:
+    """Fly a mission."""
+    mission = _mission(options)
+    from missions.launch import launch as fly
+
+    settings = LaunchOptions(speed=options.speed, record=options.record, report=options.report, view=options.view)
+    return fly(mission, options=settings)
+
+
+def check(options: argparse.Namespace) -> int:
+    """Say of every mission that it is ok, or all that is wrong with it."""
+    code = DONE
+    for name in options.missions:
+        try:
+            mission = load_mission(name, overrides=_overrides(options))
+        except MissionError as error:
+            sys.stderr.write(f"{error}\n")
+            code = BAD_INPUT
+        else:
+            sys.stdout.write(f"{name}: ok ({mission.agents.count} agents, {mission.targets.motion} targets)\n")
+    return code
+
+
+def plan(options: argparse.Namespace) -> int:
+    """Print what a mission would run."""
+    mission = _mission(options)
+    from rich.console import Console
+
+    from missions.plan import plan_mission, print_plan
+
+    # Away from a terminal the output is the same everywhere: no colors, no wrapping.
+    terminal = sys.stdout.isatty()
+    console = Console(
+        width=None if terminal else _NEVER_WRAP,
+        color_system="auto" if terminal else None,
+        markup=False,
+        emoji=False,
+        highlight=False,
+    )
+    with console.capture() as printed:
+        print_plan(plan_mission(mission), console)
+    sys.stdout.writelines(f"{line.rstrip()}\n" for line in printed.get().splitlines())
+    return DONE
+
+
+def schema(options: argparse.Namespace) -> int:
+    """Print the JSON Schema of missions."""
+    from missions.schema import mission_schema
+
+    sys.stdout.write(json.dumps(mission_schema(), indent=2) + "\n")
+    return DONE
+
+
+_NEVER_WRAP = 1000
+
+_TOP = """examples:
+  swarm launch quickstart              fly ten agents over ten targets
+  swarm launch quickstart --set agents.count=5 --report -
+  swarm check my.yaml                  every mistake, with line, key and what is allowed
+  swarm plan wildlife                  what would run, as tables
+
+`swarm VERB --help` tells more. Exit codes: 0 done, 1 the mission failed, 2 bad input, 130 stopped by Ctrl-C."""
+
+_LAUNCH = """examples:
+  swarm launch quickstart --record out/q.rrd --report out/q.json
+  swarm launch narrow --seed 7 --duration 60 --speed 1 --view
+  swarm launch my.yaml --set radio.loss=0.3 --set 'targets={motion: static, count: 4}'"""
+
+_CHECK = """examples:
+  swarm check my.yaml other.yaml
+  swarm check baboons --set targets.file=baboons.csv.gz
+
+A mistake reads  FILE:LINE: KEY: got VALUE; allowed: VALUES  and all of them are printed at once, to standard error.
+Every key, its meaning and default: `swarm plan reference`, and the comments of the bundled reference.yaml."""
+
+_PLAN = """examples:
+  swarm plan quickstart
+  swarm plan my.yaml --seed 3 --set agents.deployment.radius_m=5
+
+Prints the agents with their system ids, layers and starting places, the phases, the coverage floor
+1 - (1 - A_sensed / A_arena) ^ agents, and every setting beside its default. Flies nothing."""
+
+_SCHEMA = """example:
+  swarm schema > mission.schema.json
+
+and as the first line of a mission file, for editors that speak yaml-language-server:
+  # yaml-language-server: $schema=mission.schema.json"""
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="swarm",
+        description="Fly a swarm of MAVLink drones that keeps moving targets in sight.",
+        epilog=_TOP,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    verbs = parser.add_subparsers(title="verbs", metavar="VERB", required=True)
+
+    flying = _verb(verbs, "launch", launch, "fly a mission", _LAUNCH)
+    _one_mission(flying)
+    flying.add_argument(
+        "--speed", type=_speed, default=inf, metavar="X", help="X times real time, or max (default): as fast as it goes"
+    )
+    flying.add_argument("--record", type=_new_file, metavar="F.rrd", help="write a recording for rerun")
+    flying.add_argument("--report", type=_report, metavar="F.json", help="write the report; - is standard output")
+    flying.add_argument("--view", action="store_true", help="open a viewer and watch")
+
+    checking = _verb(verbs, "check", check, "validate missions", _CHECK)
+    checking.add_argument("missions", nargs="+", metavar="MISSION", help=_mission_help())
+    _add_set(checking)
+
+    planning = _verb(verbs, "plan", plan, "show what a mission would run", _PLAN)
+    _one_mission(planning)
+
+    _verb(verbs, "schema", schema, "print the JSON Schema of missions, for editors", _SCHEMA)
+    return parser
+
+
+def _verb(
+    verbs: argparse._SubParsersAction[argparse.ArgumentParser], name: str, verb: Verb, summary: str, epilog: str
+) -> argparse.ArgumentParser:
+    parser = verbs.add_parser(
+        name,
+        help=summary,
+        description=f"{summary[0].upper()}{summary[1:]}.",
+        epilog=epilog,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.set_defaults(verb=verb)
+    return parser
+
+
+def _one_mission(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("mission", metavar="MISSION", help=_mission_help())
+    parser.add_argument("--seed", metavar="N", help="another seed: the same as --set seed=N")
+    parser.add_argument("--duration", metavar="S", help="another duration: the same as --set duration_s=S")
+    _add_set(parser)
+
+
+def _add_set(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="KEY=VALUE",
+        help="another value, written as YAML, for one key of the mission; may be repeated",
+    )
+
+
+def _mission_help() -> str:
+    return f"path of a mission file, or a bundled mission: {', '.join(bundled_names())}"
+
+
+def _mission(options: argparse.Namespace) -> Mission:
+    return load_mission(options.mission, overrides=_overrides(options))
+
+
+def _overrides(options: argparse.Namespace) -> list[Override]:
+    given = vars(options)
+    shortcuts = (("--seed", "seed", given.get("seed")), ("--duration", "duration_s", given.get("duration")))
+    own = [Override(f"{key}={text}", option) for option, key, text in shortcuts if text is not None]
+    return [*(Override(text) for text in options.set), *own]
+
+
+def _speed(text: str) -> float:
+    if text == "max":
+        return inf
+    try:
+        speed = float(text)
+    except ValueError:
+        speed = 0.0
+    if not (speed > 0 and isfinite(speed)):
+        raise argparse.ArgumentTypeError(f'got "{text}"; allowed: a number above 0, or max')
+    return speed
+
+
+def _new_file(text: str) -> Path:
+    path = Path(text)
+    if path.is_dir() or not path.parent.is_dir():
+        raise argparse.ArgumentTypeError(f'got "{text}"; allowed: a file in a directory that exists')
+    return path
+
+
+def _report(text: str) -> str:
+    return text if text == "-" else str(_new_file(text))
