@@ -43,7 +43,8 @@ class Observation:
     """One tick of a mission, whole.
 
     Attributes:
-        tick: 0 at the start of MISSION, negative before. time_s: tick times tick_s.
+        tick: 0 at launch. time_s: the mission clock, tick times tick_s.
+        mission_tick: ticks since MISSION began; None outside MISSION.
         statuses, truths: one per agent, by uid. targets: one per target, by id.
         links: pairs (a, b), a < b, of agents that heard each other in this tick (either direction).
         coverage: share of the present targets seen now; None outside MISSION. coverage_mean: eq. 1 over n, so far.
@@ -59,6 +60,7 @@ class Observation:
     statuses: tuple[AgentStatus, ...]
     truths: tuple[AgentTruth, ...]
     targets: tuple[TargetTruth, ...]
+    mission_tick: int | None = None
     links: tuple[tuple[int, int], ...] = ()
     coverage: float | None = None
     coverage_mean: float | None = None
