@@ -1,0 +1,144 @@
+"""The pilot of one vehicle, sans-io: takes it from its first heartbeat to its layer, flies it, and brings it back."""
+
+from __future__ import annotations
+
+from pymavlink.dialects.v20 import ardupilotmega as dialect
+
+from comms.mavlink import Endpoint, Message
+from comms.status import Event, Level
+from swarm_agent.autopilot.cockpit import Cockpit
+from swarm_agent.autopilot.config import PilotConfig
+from swarm_agent.autopilot.ground import Connect
+from swarm_agent.autopilot.intent import Intent
+from swarm_agent.autopilot.requests import AUTOPILOT_COMPONENT_ID
+from swarm_agent.autopilot.stage import Stage
+from swarm_agent.autopilot.state import PilotState
+from swarm_agent.autopilot.streams import Streams
+
+HEARTBEAT_S = 1.0
+MAX_BYTES_PER_TICK = 65_536  # some thousand frames; a source that sends more is not heard out
+CLOCK_SLACK_S = 1e-6  # ticks of 0.1 s do not add up to 1 s exactly
+EVERYBODY = 0
+
+REPLIES = frozenset({
+    dialect.MAVLink_command_ack_message,
+    dialect.MAVLink_param_value_message,
+    dialect.MAVLink_param_error_message,
+})  # fmt: skip
+
+
+class Pilot:
+    """One vehicle's pilot.
+
+    Attributes:
+        config: as given.
+        endpoint: the link's counters: `sent`, `received`, `bad`.
+    """
+
+    def __init__(self, config: PilotConfig) -> None:
+        self.config = config
+        self.endpoint = Endpoint(system_id=config.ground_system_id, component_id=config.ground_component_id)
+        self._cockpit = Cockpit(config, self.endpoint)
+        self._streams = Streams()
+        self._stage: Stage = Connect()
+        self._heartbeat_due_s = float("-inf")
+        self._link_lost = False
+        self._restarts = 0
+
+    def tick(self, now_s: float, wire_in: bytes, intent: Intent) -> bytes:
+        """One tick: what the vehicle sent since the last one in, what to send it out. Never raises on `wire_in`.
+
+        Args:
+            now_s: the mission clock; it never falls back.
+            wire_in: raw bytes from the link, whole frames or not.
+            intent: what the agent wants now.
+        """
+        cockpit = self._cockpit
+        cockpit.begin_tick()
+        self._hear(wire_in, now_s)
+        self._beat(now_s)
+        self._watch_link(now_s)
+        if cockpit.telemetry.autopilot is not None:
+            self._streams.tick(cockpit, now_s)
+        self._stage = self._stage.tick(cockpit, now_s, intent)
+        return self.endpoint.take()
+
+    @property
+    def state(self) -> PilotState:
+        """The vehicle as of the last tick."""
+        telemetry, stage = self._cockpit.telemetry, self._stage
+        return PilotState(
+            phase=stage.phase,
+            ready=stage.ready,
+            position_m=telemetry.position_m,
+            velocity_m_s=telemetry.velocity_m_s,
+            heading_rad=telemetry.heading_rad,
+            battery=telemetry.battery,
+            armed=telemetry.armed,
+            flight_mode=self._cockpit.mode_name,
+            landed=telemetry.landed,
+            link_lost=self._link_lost,
+            failure=stage.failure,
+        )
+
+    @property
+    def ignored(self) -> int:
+        """Messages that came in whole but with numbers no vehicle can mean."""
+        return self._cockpit.telemetry.ignored
+
+    def take_events(self) -> tuple[Event, ...]:
+        """What the autopilot said and what went wrong, since the last call."""
+        return self._cockpit.take_events()
+
+    def _hear(self, wire_in: bytes, now_s: float) -> None:
+        """Sort the vehicle's messages; those of other systems and of its other components are not for us."""
+        if len(wire_in) > MAX_BYTES_PER_TICK:
+            self._cockpit.say(Level.WARNING, f"{len(wire_in)} bytes in one tick: the rest is dropped")
+            wire_in = wire_in[:MAX_BYTES_PER_TICK]
+        cockpit, system_id = self._cockpit, self.config.system_id
+        for message in self.endpoint.receive(wire_in):
+            if message.get_srcSystem() != system_id or message.get_srcComponent() != AUTOPILOT_COMPONENT_ID:
+                continue
+            kind = type(message)
+            if kind in REPLIES:
+                if self._for_us(message):
+                    cockpit.replies.append(message)
+            elif kind is dialect.MAVLink_statustext_message:
+                cockpit.hear_text(message)
+            else:
+                cockpit.telemetry.hear(message, now_s)
+
+    def _for_us(self, message: Message) -> bool:
+        """Parameters are for all; an acknowledgment may be a ground station's on the same vehicle."""
+        if not isinstance(message, dialect.MAVLink_command_ack_message):
+            return True
+        systems = (EVERYBODY, self.config.ground_system_id)
+        return message.target_system in systems and message.target_component in (
+            EVERYBODY,
+            self.config.ground_component_id,
+        )
+
+    def _beat(self, now_s: float) -> None:
+        """Our own HEARTBEAT, as a ground station: the vehicle's ground-station failsafe watches it."""
+        if now_s < self._heartbeat_due_s:
+            return
+        self._heartbeat_due_s = now_s + HEARTBEAT_S - CLOCK_SLACK_S
+        self._cockpit.send(
+            dialect.MAVLink_heartbeat_message(
+                dialect.MAV_TYPE_GCS, dialect.MAV_AUTOPILOT_INVALID, 0, 0, dialect.MAV_STATE_ACTIVE, 3
+            )
+        )
+
+    def _watch_link(self, now_s: float) -> None:
+        telemetry = self._cockpit.telemetry
+        if telemetry.restarts != self._restarts:
+            self._restarts = telemetry.restarts
+            self._cockpit.say(Level.WARNING, "the autopilot has restarted")
+        heard_at_s = telemetry.heartbeat_at_s
+        if heard_at_s is None or (now_s - heard_at_s > self.config.link_lost_s) == self._link_lost:
+            return
+        self._link_lost = not self._link_lost
+        if self._link_lost:
+            self._cockpit.say(Level.ERROR, f"link lost: no heartbeat for {self.config.link_lost_s:g} s")
+        else:
+            self._cockpit.say(Level.INFO, "the link is back")
