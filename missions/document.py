@@ -52,7 +52,10 @@ def read_document(data: bytes, *, source: str) -> Document:
     node = _compose(_decode(data, source), source)
     document = Document(source)
     if isinstance(node, MappingNode):
-        document.values = _Reader(document, Mark(source, 1)).value(node, ())
+        values = _Reader(document, Mark(source, 1)).value(node, ())
+        if values is None:  # a tag on the whole
+            raise MissionError(document.problems)
+        document.values = values
         return document
     got = "an empty file" if node is None else "a list" if isinstance(node, SequenceNode) else "a single value"
     raise MissionError([Problem(Mark(source), (), got, _MISSION)])
@@ -87,7 +90,7 @@ def _compose(text: str, source: str, *, lines: bool = True) -> Node | None:
         where = error.problem_mark or error.context_mark
         raise problem(f"bad YAML ({error.problem})", "YAML 1.2", line=where and where.line + 1) from error
     except ReaderError as error:
-        got = f"a character YAML has no place for ({error.character!r})"
+        got = f"a character YAML has no place for (U+{error.character:04X})"
         raise problem(got, "YAML 1.2", line=text.count("\n", 0, error.position) + 1) from error
     except (YAMLError, ValueError) as error:
         raise problem(f"bad YAML ({error})", "YAML 1.2") from error

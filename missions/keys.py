@@ -14,8 +14,8 @@ from pydantic.fields import FieldInfo
 from missions.mission import Allowed, Mission, Part
 from missions.problems import Path, any_of, shown
 
-# The name under which a section that comes in one kind only is listed among its variants.
-_ONLY = ""
+# The tag under which a section that comes in one kind only is listed among its variants.
+_ONLY = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +30,7 @@ class Key:
 def find_key(location: Sequence[int | str]) -> Key:
     """The key at pydantic's `location`, which has, unlike the key's path, the tag of every variant on its way."""
     section: type[Part] = Mission
-    inner: Mapping[str, type[Part]] = {_ONLY: Mission}
+    inner: Mapping[str | None, type[Part]] = {_ONLY: Mission}
     field: FieldInfo | None = None
     path: Path = ()
     for step in map(str, location):
@@ -44,7 +44,7 @@ def find_key(location: Sequence[int | str]) -> Key:
     return Key(path, section, field)
 
 
-def variants(field: FieldInfo) -> dict[str, type[Part]]:
+def variants(field: FieldInfo) -> dict[str | None, type[Part]]:
     """The kinds of section a field takes, by tag; none for a plain value."""
     annotation = field.annotation
     if isinstance(annotation, type) and issubclass(annotation, Part):

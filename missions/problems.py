@@ -39,7 +39,11 @@ class Problem:
         return f"{where}: got {self.got}; allowed: {self.allowed}"
 
 
-class MissionError(ValueError):
+class InputError(ValueError):
+    """What the user gave cannot be used; the error's text is what to tell them. Exit code 2."""
+
+
+class MissionError(InputError):
     """A mission that cannot be flown; `problems` holds every mistake found, in the order of the file's lines."""
 
     def __init__(self, problems: Sequence[Problem]) -> None:
@@ -63,7 +67,7 @@ def shown(value: Any) -> str:
         return "a list"
     if isinstance(value, float):
         return f"{value:.12g}"
-    text = json.dumps(value, ensure_ascii=False)
+    text = json.dumps(value, ensure_ascii=not str(value).isprintable())
     return text if len(text) <= _LONGEST_SHOWN else text[: _LONGEST_SHOWN - 3] + "..."
 
 

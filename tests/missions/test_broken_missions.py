@@ -1,0 +1,341 @@
+"""Broken mission files, each with every line `swarm check` has to say about it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from missions.cli import BAD_INPUT, main
+
+BUNDLED = "baboons, crowded, narrow, quickstart, reference, tracks, wildlife"
+TOP = "name, description, seed, duration_s, tick_s, arena, home, agents, targets, radio, policy, vehicle"
+MISSION = "a YAML file with a mission: a mapping with at least a name"
+NAME = "a word of letters, digits, '_', '.' and '-', at most 64 long, that starts with a letter or digit"
+TRACKS = "the path of a CSV of tracks (--set targets.file=PATH)"
+
+# What the file holds, and the lines expected, without the "m.yaml" that each begins with.
+CASES: dict[str, tuple[str, list[str]]] = {
+    # One key.
+    "negative": ("name: m\nagents:\n  count: 3\n  sensing:\n    range_m: -3\n", [
+        ":5: agents.sensing.range_m: got -3; allowed: a number above 0",
+    ]),
+    "zero where above 0 is asked": ("name: m\nradio: {range_m: 0}\n", [
+        ":2: radio.range_m: got 0; allowed: a number above 0",
+    ]),
+    "too many agents": ("name: m\nagents: {count: 251}\n", [
+        ":2: agents.count: got 251; allowed: a whole number from 1 to 250",
+    ]),
+    "half an agent": ("name: m\nagents: {count: 2.5}\n", [
+        ":2: agents.count: got 2.5; allowed: a whole number from 1 to 250",
+    ]),
+    "a whole number written as a float": ("name: m\nagents: {count: 2.0}\n", [
+        ":2: agents.count: got 2; allowed: a whole number from 1 to 250",
+    ]),
+    "text for a number": ('name: m\nduration_s: "240"\n', [
+        ':2: duration_s: got "240"; allowed: a number above 0',
+    ]),
+    "a unit after the number": ("name: m\nduration_s: 240 s\n", [
+        ':2: duration_s: got "240 s"; allowed: a number above 0',
+    ]),
+    "true for a number": ("name: m\nduration_s: true\n", [
+        ":2: duration_s: got true; allowed: a number above 0",
+    ]),
+    "true for a count": ("name: m\nseed: true\n", [
+        ":2: seed: got true; allowed: a whole number from 0 to 4294967295",
+    ]),
+    "1 for true": ("name: m\npolicy:\n  commitment: 1\n", [
+        ":3: policy.commitment: got 1; allowed: true or false",
+    ]),
+    "yes is text in YAML 1.2": ("name: m\npolicy:\n  commitment: yes\n", [
+        ':3: policy.commitment: got "yes"; allowed: true or false',
+    ]),
+    "not a number": ("name: m\nduration_s: .nan\n", [
+        ":2: duration_s: got nan; allowed: a number above 0",
+    ]),
+    "for ever": ("name: m\nduration_s: .inf\n", [
+        ":2: duration_s: got inf; allowed: a number above 0",
+    ]),
+    "null": ("name: m\nduration_s:\nseed: ~\n", [
+        ":2: duration_s: got null; allowed: a number above 0",
+        ":3: seed: got null; allowed: a whole number from 0 to 4294967295",
+    ]),
+    "beyond a closed range": ("name: m\nradio:\n  loss: 1.01\n", [
+        ":3: radio.loss: got 1.01; allowed: a number from 0 to 1",
+    ]),
+    "a full turn": ("name: m\nvehicle: {wind: {from_deg: 360}}\n", [
+        ":2: vehicle.wind.from_deg: got 360; allowed: a number from 0 to below 360",
+    ]),
+    "a half-open range": ("name: m\nvehicle: {limits: {tilt_deg: 0}}\n", [
+        ":2: vehicle.limits.tilt_deg: got 0; allowed: a number above 0, at most 80",
+    ]),
+    "negative wind": ("name: m\nvehicle: {wind: {speed_m_s: -1}}\n", [
+        ":2: vehicle.wind.speed_m_s: got -1; allowed: a number, 0 or more",
+    ]),
+    "below zero where null is allowed": ("name: m\ntargets: {sensing_range_m: -1}\n", [
+        ":2: targets.sensing_range_m: got -1; allowed: a number above 0, or null",
+    ]),
+    "an insane tick": ("name: m\ntick_s: 5\n", [
+        ":2: tick_s: got 5; allowed: a number from 0.01 to 1",
+    ]),
+    "a place at the pole": ("name: m\nhome: {latitude_deg: 90}\n", [
+        ":2: home.latitude_deg: got 90; allowed: a number from -85 to 85",
+    ]),
+    "no name": ("seed: 3\n", [
+        f": name: got nothing; allowed: {NAME}",
+    ]),
+    "a name with a space": ("name: my mission\n", [
+        f':1: name: got "my mission"; allowed: {NAME}',
+    ]),
+    "a number for a name": ("name: 7\n", [
+        f":1: name: got 7; allowed: {NAME}",
+    ]),
+    "a number for text": ("name: m\ndescription: 7\n", [
+        ":2: description: got 7; allowed: text",
+    ]),
+    "an endless number": (f"name: m\nseed: {'9' * 5000}\n", [
+        f':2: seed: got "{"9" * 56}...; allowed: a whole number from 0 to 4294967295',
+    ]),
+    # Choices, of values and of kinds of section.
+    "no such predictor": ("name: m\npolicy: {predictor: perfect}\n", [
+        ':2: policy.predictor: got "perfect"; allowed: direct or none',
+    ]),
+    "values that come later": (
+        "name: m\nvehicle: {kind: link}\nradio: {mode: field}\npolicy: {name: shepherd}\n"
+        "agents: {sensing: {field_of_view: camera}}\n",
+        [
+            ':2: vehicle.kind: got "link"; allowed: simulated or ideal',
+            ':3: radio.mode: got "field"; allowed: sim or ideal',
+            ':4: policy.name: got "shepherd"; allowed: b-cmommt',
+            ':5: agents.sensing.field_of_view: got "camera"; allowed: omni',
+        ],
+    ),
+    "no such shape": ("name: m\narena:\n  shape: polygon\n  radius_m: 3\n", [
+        ':3: arena.shape: got "polygon"; allowed: disc or rectangle',
+    ]),
+    "no such motion": ("name: m\ntargets:\n  motion: [fast]\n", [
+        ":3: targets.motion: got a list; allowed: evasive, random, static or tracks",
+    ]),
+    "the other shape's key": ("name: m\narena: {shape: rectangle, radius_m: 30}\n", [
+        ":2: arena.radius_m: got an unknown key; allowed: shape, width_m, height_m",
+    ]),
+    "a count of tracks": (f"name: m\ntargets:\n  motion: tracks\n  file: {__file__}\n  count: 3\n", [
+        ":5: targets.count: got an unknown key; allowed: motion, file, start_s, max_gap_s",
+    ]),
+    "a value for a section": ("name: m\nagents: 10\narena: 30\n", [
+        ":2: agents: got 10; allowed: a mapping with keys such as count",
+        ":3: arena: got 30; allowed: a mapping with keys such as shape",
+    ]),
+    "an empty section": ("name: m\nradio:\n", [
+        ":2: radio: got null; allowed: a mapping with keys such as mode",
+    ]),
+    "a list for a section": ("name: m\nradio:\n  - mode: sim\n", [
+        ":2: radio: got a list; allowed: a mapping with keys such as mode",
+    ]),
+    "a section for a value": ("name: m\nseed: {value: 1}\n", [
+        ":2: seed: got a mapping; allowed: a whole number from 0 to 4294967295",
+    ]),
+    # Unknown keys.
+    "a misspelled key": ("name: m\nagents:\n  sensing:\n    rang_m: 5\n", [
+        ":4: agents.sensing.rang_m: got an unknown key; allowed: range_m, field_of_view; did you mean range_m?",
+    ]),
+    "a misspelled section": ("name: m\nagnets: {count: 3}\n", [
+        f":2: agnets: got an unknown key; allowed: {TOP}; did you mean agents?",
+    ]),
+    "a key like no other": ("name: m\nxyzzy: 1\n", [
+        f":2: xyzzy: got an unknown key; allowed: {TOP}",
+    ]),
+    "a number for a key": ("name: m\n17: 1\n", [
+        f":2: 17: got an unknown key; allowed: {TOP}",
+    ]),
+    "a merge key": ("name: m\n<<: {seed: 3}\n", [
+        f":2: <<: got an unknown key; allowed: {TOP}",
+    ]),
+    "a key of two lines": ('name: m\n"a\\nb": 1\n', [
+        f':2: "a\\nb": got an unknown key; allowed: {TOP}',
+    ]),
+    "a key given twice": ("name: m\nagents:\n  count: 3\n  speed_m_s: 0.4\n  count: 4\n", [
+        ":5: agents.count: got a second value (the first is in line 3); allowed: each key once",
+    ]),
+    "a mapping for a key": ("name: m\n{a: 1}: 2\n", [
+        ":2: got a key that is no word; allowed: keys that are words",
+    ]),
+    # Between keys.
+    "mates hear no further than they see": ("name: m\nradio: {range_m: 5.5}\n", [
+        ":2: radio.range_m: got 5.5; allowed: more than agents.sensing.range_m (5.5)",
+    ]),
+    "a default at odds with a value": ("name: m\nagents:\n  sensing: {range_m: 25}\n", [
+        ":3: radio.range_m: got 20 (the default); allowed: more than agents.sensing.range_m (25)",
+    ]),
+    "slower than evasive targets": ("name: m\nagents: {speed_m_s: 0.3}\n", [
+        ":2: agents.speed_m_s: got 0.3; allowed: more than targets.speed_m_s (0.3) of evasive targets",
+    ]),
+    "slower than random targets": ("name: m\ntargets:\n  motion: random\n  speed_m_s: 1\n", [
+        ":4: agents.speed_m_s: got 0.4 (the default); allowed: more than targets.speed_m_s (1) of random targets",
+    ]),
+    "agents start outside": ("name: m\nagents: {deployment: {radius_m: 31}}\n", [
+        ":2: agents.deployment.radius_m: got 31; allowed: at most 30, the largest circle inside the arena",
+    ]),
+    "targets outside": ("name: m\nagents: {deployment: {radius_m: 14}}\narena: {shape: rectangle, height_m: 29}\n", [
+        ":3: targets.deployment.radius_m: got 15 (the default); "
+        "allowed: at most 14.5, the largest circle inside the arena",
+    ]),
+    "no room for all": ("name: m\nagents: {deployment: {radius_m: 1, spacing_m: 1}}\n", [
+        ":2: agents.deployment.spacing_m: got 1; allowed: less, to fit 10 agents into agents.deployment.radius_m (1)",
+    ]),
+    "vehicles too slow": ("name: m\nvehicle: {limits: {speed_m_s: 0.35}}\n", [
+        ":2: vehicle.limits.speed_m_s: got 0.35; allowed: at least agents.speed_m_s (0.4)",
+    ]),
+    "a gale": ("name: m\nvehicle:\n  wind: {speed_m_s: 9, gust_m_s: 1}\n", [
+        ":3: vehicle.wind.speed_m_s: got 9; "
+        "allowed: with vehicle.wind.gust_m_s (1), less than vehicle.limits.speed_m_s (10)",
+    ]),
+    "an ideal radio that fails": ("name: m\nradio: {mode: ideal, loss: 0.1, latency_s: 0.2}\n", [
+        ":2: radio.loss: got 0.1; allowed: 0 where radio.mode is ideal",
+        ":2: radio.latency_s: got 0.2; allowed: 0 where radio.mode is ideal",
+    ]),
+    "a lease that ends at once": ("name: m\npolicy:\n  tag_lease_s: 0.1\n", [
+        ":3: policy.tag_lease_s: got 0.1; allowed: at least two tick_s and radio.latency_s (0.2), "
+        "or it ends before it is renewed",
+    ]),
+    "a mission shorter than a tick": ("name: m\nduration_s: 0.05\n", [
+        ":2: duration_s: got 0.05; allowed: at least one tick_s (0.1)",
+    ]),
+    "a standoff out of sight": ("name: m\npolicy: {standoff_m: 6}\n", [
+        ":2: policy.standoff_m: got 6; allowed: less than agents.sensing.range_m (5.5)",
+    ]),
+    "tracks without a file": ("name: m\ntargets:\n  motion: tracks\n", [
+        f":2: targets.file: got nothing; allowed: {TRACKS}",
+    ]),
+    "a number for a file": ("name: m\ntargets:\n  motion: tracks\n  file: 3\n", [
+        f":4: targets.file: got 3; allowed: {TRACKS}",
+    ]),
+    "a file that is not there": ("name: m\ntargets:\n  motion: tracks\n  file: /no/such.csv\n", [
+        ':4: targets.file: got "/no/such.csv"; allowed: a file that exists',
+    ]),
+    # Many at once: kinds of mistakes do not hide each other, nor do wrong keys the rules between the right ones.
+    "everything": (
+        "nme: m\nseed: -1\nagents:\n  count: 300\n  count: 3\n  sensing: {range_m: 25}\ntargets:\n  motion: flying\n"
+        "vehicle: !drone {}\narena: {shape: disc, width_m: 3}\n",
+        [
+            f": name: got nothing; allowed: {NAME}",
+            f":1: nme: got an unknown key; allowed: {TOP}; did you mean name?",
+            ":2: seed: got -1; allowed: a whole number from 0 to 4294967295",
+            ":4: agents.count: got 300; allowed: a whole number from 1 to 250",
+            ":5: agents.count: got a second value (the first is in line 4); allowed: each key once",
+            ":6: radio.range_m: got 20 (the default); allowed: more than agents.sensing.range_m (25)",
+            ':8: targets.motion: got "flying"; allowed: evasive, random, static or tracks',
+            ":9: vehicle: got the YAML tag !drone; allowed: plain values",
+            ":10: arena.width_m: got an unknown key; allowed: shape, radius_m",
+        ],
+    ),
+    "a wrong value is not compared": ("name: m\nradio: {range_m: -1}\nagents: {sensing: {range_m: 25}}\n", [
+        ":2: radio.range_m: got -1; allowed: a number above 0",
+    ]),
+    "a misspelled value is not compared": ("name: m\nradio: {range: 30}\nagents: {sensing: {range_m: 25}}\n", [
+        ":2: radio.range: got an unknown key; allowed: mode, range_m, loss, latency_s; did you mean range_m?",
+    ]),
+    "tracks without a file, and more": ("name: m\ntargets: {motion: tracks, start_s: -1}\nradio: {range_m: 5}\n", [
+        f":2: targets.file: got nothing; allowed: {TRACKS}",
+        ":2: targets.start_s: got -1; allowed: a number, 0 or more",
+        ":3: radio.range_m: got 5; allowed: more than agents.sensing.range_m (5.5)",
+    ]),
+    # No mission at all.
+    "an empty file": ("", [f": got an empty file; allowed: {MISSION}"]),
+    "only a comment": ("# name: m\n", [f": got an empty file; allowed: {MISSION}"]),
+    "a list at the top": ("- name: m\n", [f": got a list; allowed: {MISSION}"]),
+    "a word at the top": ("mission\n", [f": got a single value; allowed: {MISSION}"]),
+    "a tagged top": ("!mission {name: m}\n", [":1: got the YAML tag !mission; allowed: plain values"]),
+    "two documents": ("name: m\n---\nname: n\n", [":2: got bad YAML (but found another document); allowed: YAML 1.2"]),
+    "bad indentation": ("name: m\nagents:\n   count: 3\n  speed_m_s: 1\n", [
+        ":4: got bad YAML (expected <block end>, but found '<block mapping start>'); allowed: YAML 1.2",
+    ]),
+    "an open bracket": ("name: [m\n", [
+        ":2: got bad YAML (expected ',' or ']', but got '<stream end>'); allowed: YAML 1.2",
+    ]),
+    "a tab": ("name: m\nagents:\n\tcount: 3\n", [
+        ":3: got bad YAML (found character '\\t' that cannot start any token); allowed: YAML 1.2",
+    ]),
+    "an alias": ("name: m\nagents: &a {count: 3}\nradio: *a\n", [
+        ":2: radio: got a YAML alias; allowed: a value written out",
+    ]),
+    "an alias to itself": ("name: m\nagents: &a [*a]\n", [
+        ":2: agents: got a YAML alias; allowed: a value written out",
+        ":2: agents: got a list; allowed: a mapping with keys such as count",
+    ]),
+    "a control character": ("name: m\nseed: \x07\n", [
+        ":2: got a character YAML has no place for (U+0007); allowed: YAML 1.2",
+    ]),
+    "a bottomless pit": ("[" * 5000, [f": got values nested hundreds of levels deep; allowed: {MISSION}"]),
+}  # fmt: skip
+
+
+def checked(name: str, capsys: pytest.CaptureFixture[str]) -> list[str]:
+    """The lines `swarm check` prints of a broken mission, and nothing else."""
+    assert main(["check", name]) == BAD_INPUT
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    return printed.err.splitlines()
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_says_all_that_is_wrong(
+    case: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text, expected = CASES[case]
+    monkeypatch.chdir(tmp_path)
+    Path("m.yaml").write_text(text, encoding="utf-8")
+    assert checked("m.yaml", capsys) == [f"m.yaml{line}" for line in expected]
+
+
+def test_binary_rubbish(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("m.yaml").write_bytes(b"\x7fELF\x89\x00\xff")
+    expected = f"m.yaml: got byte 0x89 at offset 4, which is not UTF-8 text; allowed: {MISSION}"
+    assert checked("m.yaml", capsys) == [expected]
+
+
+def test_a_file_too_large(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("m.yaml").write_bytes(b"#" * 1_000_001)
+    assert checked("m.yaml", capsys) == ["m.yaml: got more than a megabyte; allowed: the path of a mission file"]
+
+
+def test_a_directory(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert checked(str(tmp_path), capsys) == [f"{tmp_path}: got a directory; allowed: the path of a mission file"]
+
+
+@pytest.mark.parametrize(
+    ("name", "hint"),
+    [
+        ("quickstrt", "; did you mean quickstart?"),
+        ("quickstart.yaml", "; did you mean quickstart?"),
+        ("no/such/wild.yaml", "; did you mean wildlife?"),
+        ("zzz", ""),
+    ],
+)
+def test_an_unknown_mission_lists_the_bundled_ones(
+    name: str, hint: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    allowed = f"the path of a mission file, or a bundled mission ({BUNDLED}){hint}"
+    assert checked(name, capsys) == [f"{name}: got no such mission; allowed: {allowed}"]
+
+
+def test_one_broken_mission_does_not_hide_the_others(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("a.yaml").write_text("name: a\nseed: x\n")
+    Path("b.yaml").write_text("name: b\ntick_s: 0\n")
+    assert main(["check", "a.yaml", "narrow", "b.yaml"]) == BAD_INPUT
+    printed = capsys.readouterr()
+    assert printed.out == "narrow: ok (10 agents, evasive targets)\n"
+    assert printed.err.splitlines() == [
+        'a.yaml:2: seed: got "x"; allowed: a whole number from 0 to 4294967295',
+        "b.yaml:2: tick_s: got 0; allowed: a number from 0.01 to 1",
+    ]
+
+
+def test_a_bundled_mission_that_needs_a_file_says_how_to_give_it(capsys: pytest.CaptureFixture[str]) -> None:
+    assert checked("baboons", capsys) == [f"baboons.yaml:21: targets.file: got nothing; allowed: {TRACKS}"]
