@@ -17,7 +17,7 @@ from missions.load import bundled_names, load_mission
 from missions.mission import Mission
 from missions.options import LaunchOptions
 from missions.overrides import Override
-from missions.problems import MissionError
+from missions.problems import InputError, MissionError
 
 DONE, FAILED, BAD_INPUT, STOPPED = 0, 1, 2, 130
 
@@ -33,7 +33,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     verb: Verb = options.verb
     try:
         return verb(options)
-    except MissionError as error:
+    except InputError as error:
         sys.stderr.write(f"{error}\n")
         return BAD_INPUT
     except KeyboardInterrupt:

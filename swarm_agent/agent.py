@@ -1,8 +1,8 @@
 """One agent: the brain and its hands, sans-io. Values in, values out, once a tick.
 
-    agent = Agent(config)
-    output = agent.tick(now_s, order, sightings, inbox, telemetry)
-    radio.send(output.frame); link.write(output.wire); observer.tell(output.status)
+agent = Agent(config)
+output = agent.tick(now_s, order, sightings, inbox, telemetry)
+radio.send(output.frame); link.write(output.wire); observer.tell(output.status)
 """
 
 from __future__ import annotations
@@ -69,6 +69,11 @@ class Agent:
         self._mind = new_mind(*config.heading)
         self._seq = 0
         self.pilot = Pilot(config.pilot)
+
+    @property
+    def ready(self) -> bool:
+        """On its layer, and waiting for the mission to begin."""
+        return self.pilot.state.ready
 
     def tick(
         self, now_s: float, order: Order, sightings: Sequence[Sighting], inbox: Sequence[Frame], telemetry: bytes
@@ -143,10 +148,7 @@ class Agent:
             battery=state.battery,
             tags=tuple([j for j, mine in enumerate(table.tagged) if mine]) if on_duty else (),
             calls=tuple(
-                [
-                    HelpCallStatus(j, min(table.loss_in_s[j], horizon_s) if table.tagged[j] else 0.0)
-                    for j in calls
-                ]
+                [HelpCallStatus(j, min(table.loss_in_s[j], horizon_s) if table.tagged[j] else 0.0) for j in calls]
             ),
             helping=helping,
             mates=tuple([frame.src for frame in inbox]),

@@ -1,0 +1,178 @@
+"""From a mission to its parts: every room's settings in that room's own words. No part runs here."""
+
+from __future__ import annotations
+
+from math import atan2
+
+from comms.air import Air, LinkModel
+from comms.chance import PLACE_AGENT, PLACE_TARGET
+from comms.frames import geo_from_enu
+from comms.keys import Keys
+from comms.session import Bus
+from missions.mission import Mission, TrackTargets
+from missions.rules import start_places
+from swarm_agent.agent import Agent, AgentConfig
+from swarm_agent.autopilot import PilotConfig
+from swarm_agent.bcmommt.params import Call, Capture, Explore, Gate, Params, Predictor
+from vehicle_sim.autopilot import SimulatedVehicle
+from vehicle_sim.battery import Battery
+from vehicle_sim.flight import FlightLimits
+from vehicle_sim.herd import Evasive, Herd, Random, Replay, Static
+from vehicle_sim.placement import heading, scatter
+from vehicle_sim.tracks import read_tracks
+from vehicle_sim.vehicle import VehicleConfig
+from vehicle_sim.wind import Wind
+from vehicle_sim.world import World
+
+Place = tuple[float, float]
+
+# A frame is worth hearing for a few ticks beyond its latency; then its sender is somewhere else.
+FRAME_LIVES_TICKS = 5
+_PREDICTORS = {"none": Predictor.NONE, "direct": Predictor.DIRECT}
+_CALLS = {"predicted": Call.PREDICTED, "all_but_nearest": Call.ALL_BUT_NEAREST}
+_GATES = {"in_time": Gate.IN_TIME, "always": Gate.ALWAYS}
+_CAPTURES = {"worst_case": Capture.WORST_CASE, "intercept": Capture.INTERCEPT}
+_EXPLORES = {"persistent-walk": Explore.PERSISTENT_WALK, "stale-first": Explore.STALE_FIRST}
+
+
+def system_id(uid: int) -> int:
+    """The MAVLink system id of agent `uid`'s vehicle."""
+    return uid + 1
+
+
+def deployment(mission: Mission) -> tuple[Place, ...]:
+    """Where agents start, by uid: metres east and north of home."""
+    places = start_places(mission)
+    assert places is not None, "a mission whose agents do not fit is no loaded mission"
+    return places
+
+
+def params(mission: Mission) -> Params:
+    """The algorithm's constants."""
+    policy = mission.policy
+    targets = mission.targets
+    # Nobody knows how fast recorded animals can be; as fast as an agent is the worst case that can still be followed.
+    target_speed = mission.agents.speed_m_s if isinstance(targets, TrackTargets) else targets.speed_m_s
+    return Params(
+        arena=mission.arena.area,
+        tick_s=mission.tick_s,
+        sensing_range_m=mission.agents.sensing.range_m,
+        agent_speed_m_s=mission.agents.speed_m_s,
+        target_speed_m_s=target_speed,
+        standoff_m=policy.standoff_m,
+        turn_time_s=policy.turn_time_s,
+        horizon_s=policy.horizon_s,
+        help_margin_s=policy.help_margin_s,
+        tag_lease_s=policy.tag_lease_s,
+        help_lease_s=policy.help_lease_s,
+        memory_s=policy.memory_s,
+        follow_gain_per_s=policy.follow_gain_per_s,
+        predictor=_PREDICTORS[policy.predictor],
+        call=_CALLS[policy.call],
+        gate=_GATES[policy.answer_gate],
+        capture=_CAPTURES[policy.capture],
+        commitment=policy.commitment,
+        explore=_EXPLORES[policy.explore],
+    )
+
+
+def agents(mission: Mission, n_targets: int) -> list[Agent]:
+    """Every agent, by uid."""
+    shared = params(mission)
+    ttl_s = mission.radio.latency_s + FRAME_LIVES_TICKS * mission.tick_s
+    return [
+        Agent(
+            AgentConfig(
+                uid=uid,
+                seed=mission.seed,
+                params=shared,
+                n_agents=mission.agents.count,
+                n_targets=n_targets,
+                heading=heading(who=uid, seed=mission.seed, purpose=PLACE_AGENT),
+                ttl_s=ttl_s,
+                pilot=PilotConfig(
+                    uid=uid,
+                    system_id=system_id(uid),
+                    home=mission.home.place,
+                    altitude_m=mission.agents.altitude.of_agent(uid),
+                    max_speed_m_s=mission.agents.speed_m_s,
+                    max_climb_m_s=min(mission.vehicle.limits.climb_m_s, mission.vehicle.limits.descent_m_s),
+                ),
+            )
+        )
+        for uid in range(mission.agents.count)
+    ]
+
+
+def vehicles(mission: Mission) -> list[SimulatedVehicle]:
+    """Every agent's simulated vehicle, by uid, standing at its own home and just switched on."""
+    vehicle = mission.vehicle
+    config = VehicleConfig(
+        kind=vehicle.kind,
+        boot_s=vehicle.boot_s,
+        limits=FlightLimits(**vehicle.limits.model_dump()),
+        wind=Wind(**vehicle.wind.model_dump()),
+        battery=Battery(**vehicle.battery.model_dump()),
+    )
+    parts = []
+    for uid, (x, y) in enumerate(deployment(mission)):
+        east, north = heading(who=uid, seed=mission.seed, purpose=PLACE_AGENT)
+        parts.append(
+            SimulatedVehicle(
+                config=config,
+                system_id=system_id(uid),
+                home=geo_from_enu(mission.home.place, (x, y, 0.0)),
+                heading_rad=atan2(east, north),
+                seed=mission.seed,
+                started_at_s=0.0,
+            )
+        )
+    return parts
+
+
+def world(mission: Mission) -> World:
+    """The targets, and what sensors see of them.
+
+    Raises:
+        TracksError: a file of tracks that cannot be read.
+    """
+    return World(herd=_herd(mission), sensing_range_m=mission.agents.sensing.range_m)
+
+
+def air(mission: Mission, bus: Bus) -> Air:
+    """The medium between the agents."""
+    radio = mission.radio
+    return Air(
+        bus,
+        keys=Keys(mission.name),
+        model=LinkModel(range_m=radio.range_m, loss=radio.loss, latency_s=radio.latency_s),
+        n_agents=mission.agents.count,
+        tick_s=mission.tick_s,
+        seed=mission.seed,
+    )
+
+
+def _herd(mission: Mission) -> Herd:
+    arena, targets, tick_s, seed = mission.arena.area, mission.targets, mission.tick_s, mission.seed
+    if isinstance(targets, TrackTargets):
+        tracks = read_tracks(targets.file, max_gap_s=targets.max_gap_s)
+        return Replay(arena=arena, tracks=tracks, tick_s=tick_s, start_s=targets.start_s)
+    places = scatter(
+        count=targets.count, radius_m=targets.deployment.radius_m, spacing_m=0.0, seed=seed, purpose=PLACE_TARGET
+    )
+    headings = [heading(who=target, seed=seed, purpose=PLACE_TARGET) for target in range(targets.count)]
+    if targets.motion == "static":
+        return Static(arena=arena, places=places, headings=headings, tick_s=tick_s, seed=seed)
+    if targets.motion == "random":
+        return Random(
+            arena=arena, places=places, headings=headings, tick_s=tick_s, seed=seed, speed_m_s=targets.speed_m_s
+        )
+    return Evasive(
+        arena=arena,
+        places=places,
+        headings=headings,
+        tick_s=tick_s,
+        seed=seed,
+        speed_m_s=targets.speed_m_s,
+        notice_range_m=mission.target_sensing_range_m,
+    )

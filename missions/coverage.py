@@ -1,0 +1,42 @@
+"""How much is seen: eq. 1 divided by n, as it grows tick by tick."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+
+class Coverage:
+    """Targets seen and targets present, tick by tick. Where targets come and go, sums of both are divided."""
+
+    def __init__(self) -> None:
+        self._seen: list[int] = []
+        self._present: list[int] = []
+        self._seen_in_all = 0
+        self._present_in_all = 0
+
+    def add(self, *, seen: int, present: int) -> None:
+        """Count one tick."""
+        self._seen.append(seen)
+        self._present.append(present)
+        self._seen_in_all += seen
+        self._present_in_all += present
+
+    @property
+    def now(self) -> float | None:
+        """Share of the present targets seen in the last tick; None while there are none."""
+        return _share(self._seen[-1:], self._present[-1:])
+
+    @property
+    def mean(self) -> float | None:
+        """Share seen so far: A/n."""
+        return self._seen_in_all / self._present_in_all if self._present_in_all else None
+
+    @property
+    def late(self) -> float | None:
+        """The mean of the last quarter of the ticks."""
+        start = len(self._seen) * 3 // 4
+        return _share(self._seen[start:], self._present[start:])
+
+
+def _share(seen: Sequence[int], present: Sequence[int]) -> float | None:
+    return sum(seen) / sum(present) if sum(present) else None

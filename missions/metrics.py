@@ -1,0 +1,111 @@
+"""What happened in a mission, counted from its observations alone."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from comms.status import Activity, AgentStatus, Level
+from missions.observation import Observation
+
+MAX_FAULTS = 1000
+
+
+@dataclass(slots=True)
+class EventCount:
+    """Definition 7: a target changes its owner, loses its last one, or gets its first."""
+
+    target_loss: int = 0
+    target_discovery: int = 0
+    tag_switch: int = 0
+
+
+@dataclass(slots=True)
+class HelpCount:
+    """Episodes of help. A call is an episode of one agent calling for one target, however often it repeats.
+
+    answered: an agent set out to help. captured: it came to own the target. taken_over: it left the target to another
+    helper.
+    """
+
+    calls: int = 0
+    answered: int = 0
+    captured: int = 0
+    taken_over: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """Something that should not have happened: when (mission clock, s), to which agent, and what."""
+
+    time_s: float
+    agent: int | None
+    what: str
+
+
+@dataclass(slots=True)
+class Metrics:
+    """An observer that counts."""
+
+    events: EventCount = field(default_factory=EventCount)
+    help: HelpCount = field(default_factory=HelpCount)
+    faults: list[Fault] = field(default_factory=list)
+    tick_late_s_max: float = 0.0
+    _before: tuple[AgentStatus, ...] = ()
+    _on_duty_before: bool = False
+
+    def observe(self, observation: Observation) -> None:
+        """Count one tick."""
+        on_duty = observation.mission_tick is not None
+        self.tick_late_s_max = max(self.tick_late_s_max, observation.tick_late_s)
+        self._count_faults(observation)
+        if on_duty:
+            before = self._before if self._on_duty_before else ()
+            _count_tags(self.events, _owners(before), _owners(observation.statuses))
+            _count_help(self.help, before, observation.statuses)
+        self._before, self._on_duty_before = observation.statuses, on_duty
+
+    def _count_faults(self, observation: Observation) -> None:
+        was_lost = {status.uid for status in self._before if status.activity is Activity.LOST}
+        faults = [Fault(observation.time_s, None, e.text) for e in observation.events if e.level is Level.ERROR]
+        for status in observation.statuses:
+            errors = [event.text for event in status.events if event.level is Level.ERROR]
+            if status.activity is Activity.LOST and status.uid not in was_lost and not errors:
+                errors = ["lost"]
+            faults += [Fault(observation.time_s, status.uid, text) for text in errors]
+        self.faults += faults[: MAX_FAULTS - len(self.faults)]
+
+
+def _owners(statuses: Sequence[AgentStatus]) -> dict[int, set[int]]:
+    owners: dict[int, set[int]] = {}
+    for status in statuses:
+        for target in status.tags:
+            owners.setdefault(target, set()).add(status.uid)
+    return owners
+
+
+def _count_tags(count: EventCount, before: Mapping[int, set[int]], now: Mapping[int, set[int]]) -> None:
+    # For a moment two agents may both claim a target (their claims cross in the air): a switch is complete when the
+    # new owner is there and the old one has let go.
+    for target, owners in now.items():
+        if target not in before:
+            count.target_discovery += 1
+        elif not before[target] <= owners:
+            count.tag_switch += 1
+    count.target_loss += sum(1 for target in before if target not in now)
+
+
+def _count_help(count: HelpCount, before: Sequence[AgentStatus], now: Sequence[AgentStatus]) -> None:
+    helped = {status.helping for status in now}
+    for index, status in enumerate(now):
+        old = before[index] if before else None
+        called = {call.target for call in old.calls} if old else set()
+        count.calls += sum(1 for call in status.calls if call.target not in called)
+        was_helping = old.helping if old else None
+        if status.helping is not None and status.helping != was_helping:
+            count.answered += 1
+        if was_helping is not None and status.helping != was_helping:
+            if was_helping in status.tags:
+                count.captured += 1
+            elif was_helping in helped:
+                count.taken_over += 1

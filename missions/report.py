@@ -1,0 +1,132 @@
+"""The report of a mission: stable keys, as JSON and as a table. README documents them.
+
+Two runs of one mission with one seed differ in `timing` and `recording` alone.
+"""
+
+from __future__ import annotations
+
+import json
+import platform
+from collections.abc import Mapping
+from dataclasses import asdict
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from missions.flight import Flight
+from missions.metrics import Metrics
+from missions.plan import coverage_floor
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+Report = dict[str, Any]
+
+PACKAGES = ("swarm-mission-stack", "eclipse-zenoh", "pymavlink")
+_DIGITS = 6
+
+
+def make_report(flight: Flight, metrics: Metrics, *, wall_s: float, recording: Path | None) -> Report:
+    """Everything worth keeping of a flight that has ended."""
+    mission = flight.mission
+    n_agents, n_targets = mission.agents.count, len(flight.world.places)
+    duration_s = flight.ticks_flown * mission.tick_s
+    coverage = flight.coverage.mean
+    count = flight.air.count
+    endpoints = [agent.pilot.endpoint for agent in flight.agents]
+    return {
+        "mission": mission.name,
+        "policy": mission.policy.name,
+        "seed": mission.seed,
+        "agents": n_agents,
+        "targets": n_targets,
+        "duration_s": _rounded(duration_s),
+        "coverage": _rounded(coverage),
+        "coverage_late": _rounded(flight.coverage.late),
+        "coverage_floor": _rounded(coverage_floor(mission)),
+        "utilization": None if coverage is None else _rounded(coverage * n_targets / n_agents),
+        "events": asdict(metrics.events),
+        "help": asdict(metrics.help),
+        "radio": {
+            "sent": count.sent,
+            "delivered": count.delivered,
+            "out_of_range": count.out_of_range,
+            "lost": count.lost,
+            "bytes": count.bytes,
+        },
+        "mavlink": {
+            "sent": sum(end.sent for end in endpoints),
+            "received": sum(end.received for end in endpoints),
+            "bad": sum(end.bad for end in endpoints),
+        },
+        "faults": [asdict(fault) for fault in metrics.faults],
+        "recording": None if recording is None else str(recording),
+        "versions": versions(PACKAGES),
+        "timing": {
+            "wall_s": round(wall_s, 3),
+            "realtime_factor": round(duration_s / wall_s, 2) if wall_s > 0 else None,
+            "tick_late_s_max": round(metrics.tick_late_s_max, 4),
+        },
+    }
+
+
+def versions(packages: tuple[str, ...]) -> dict[str, str]:
+    """Which software flew: Python and `packages`, by name."""
+    found = {"python": platform.python_version()}
+    for package in packages:
+        try:
+            found[package] = version(package)
+        except PackageNotFoundError:  # run from a source tree that is not installed
+            found[package] = "unknown"
+    return found
+
+
+def as_json(report: Report) -> str:
+    """The report as a JSON text with a final newline."""
+    return json.dumps(report, indent=2) + "\n"
+
+
+def as_table(report: Report) -> Table:
+    """The report as a person wants it: one page, the important things first."""
+    from rich.table import Table
+
+    table = Table(
+        title=f"{report['mission']} · seed {report['seed']}", title_style="bold", title_justify="left", box=None
+    )
+    table.add_column(style="dim")
+    table.add_column()
+    for name, text in _lines(report).items():
+        table.add_row(name, text)
+    return table
+
+
+def _lines(report: Report) -> Mapping[str, str]:
+    events, helped, radio, mavlink, timing = (report[key] for key in ("events", "help", "radio", "mavlink", "timing"))
+    lines = {
+        "who": f"{report['agents']} agents, {report['targets']} targets, {report['policy']}, "
+        f"{report['duration_s']:.0f} s of mission",
+        "coverage": f"{_percent(report['coverage'])}   late {_percent(report['coverage_late'])}   "
+        f"floor {_percent(report['coverage_floor'])}",
+        "events": f"{events['target_loss']} losses, {events['target_discovery']} discoveries, "
+        f"{events['tag_switch']} tag switches",
+        "help": f"{helped['calls']} calls, {helped['answered']} answered, {helped['captured']} captured, "
+        f"{helped['taken_over']} taken over",
+        "radio": f"{radio['sent']} frames sent, {radio['delivered']} delivered, {radio['out_of_range']} out of range, "
+        f"{radio['lost']} lost, {radio['bytes'] / 1e6:.1f} MB",
+        "mavlink": f"{mavlink['sent']} sent, {mavlink['received']} received, {mavlink['bad']} bad",
+        "time": f"{timing['wall_s']:.1f} s, {timing['realtime_factor']} times real time",
+    }
+    if report["recording"]:
+        lines["recording"] = report["recording"]
+    for fault in report["faults"][:10]:
+        who = "mission" if fault["agent"] is None else f"agent {fault['agent']}"
+        lines[f"fault {fault['time_s']:.1f} s"] = f"{who}: {fault['what']}"
+    return lines
+
+
+def _percent(share: float | None) -> str:
+    return "none" if share is None else f"{share:.1%}"
+
+
+def _rounded(number: float | None) -> float | None:
+    return None if number is None else round(number, _DIGITS)
