@@ -15,6 +15,7 @@ from missions.observation import Phase
 from missions.overrides import Override
 from missions.plan import coverage_floor, plan_mission
 
+# To renew it: swarm plan quickstart > tests/missions/plan_quickstart.txt
 GOLDEN = Path(__file__).parent / "plan_quickstart.txt"
 
 
