@@ -1,0 +1,127 @@
+"""How the viewer shows a recording at first: four tabs, stored in the file."""
+
+from __future__ import annotations
+
+import rerun as rr
+import rerun.blueprint as rrb
+
+from missions.recording import palette, shapes
+from missions.recording.places import GRAPH_SIZE
+from missions.recording.scene import Scene
+from missions.recording.tape import TICK_LINE, TIME_LINE
+
+_TRAIL_S = 20.0
+
+
+def blueprint(scene: Scene, *, live: bool) -> rrb.Blueprint:
+    """Tabs Mission, Telemetry, Map and Raw. A live viewer follows the newest tick; a review starts paused."""
+    play_state = rrb.components.PlayState.Following if live else rrb.components.PlayState.Paused
+    return rrb.Blueprint(
+        rrb.Tabs(_mission(scene), _telemetry(), _map(), _raw(), active_tab=0),
+        rrb.BlueprintPanel(state="collapsed"),
+        rrb.SelectionPanel(state="collapsed"),
+        rrb.TimePanel(state="collapsed", timeline=TIME_LINE, play_state=play_state),
+        auto_layout=False,
+        auto_views=False,
+    )
+
+
+def _mission(scene: Scene) -> rrb.Container:
+    return rrb.Horizontal(
+        rrb.Vertical(
+            _swarm(scene),
+            rrb.Horizontal(_coverage(), _radio(scene), column_shares=[5, 4]),
+            row_shares=[5, 2],
+        ),
+        rrb.Vertical(_lanes(), _events(), row_shares=[5, 3]),
+        column_shares=[19, 10],
+        name="Mission",
+    )
+
+
+def _swarm(scene: Scene) -> rrb.View:
+    return rrb.Spatial3DView(
+        origin="/world",
+        name="Swarm",
+        background=rrb.Background(color=palette.BACKGROUND),
+        line_grid=rrb.LineGrid3D(visible=False),
+        eye_controls=rrb.EyeControls3D(
+            kind=rrb.Eye3DKind.Orbital,
+            position=shapes.eye_position_m(scene.arena),
+            look_target=shapes.eye_target_m(scene.arena),
+            eye_up=(0.0, 0.0, 1.0),
+        ),
+        overrides={"/world/agents/trail": [rrb.VisibleTimeRanges(_lately(_TRAIL_S)), rr.LineStrips3D.from_fields()]},
+    )
+
+
+def _lately(seconds: float) -> list[rrb.VisibleTimeRange]:
+    boundary = rrb.TimeRangeBoundary
+    start = boundary.cursor_relative(seconds=-seconds)
+    return [rrb.VisibleTimeRange(TIME_LINE, start=start, end=boundary.cursor_relative())]
+
+
+def _coverage() -> rrb.View:
+    return rrb.TimeSeriesView(
+        origin="/metrics",
+        contents=["/metrics/coverage", "/metrics/floor"],
+        name="Coverage",
+        axis_y=rrb.ScalarAxis(range=(0.0, 1.02), zoom_lock=True),
+        plot_legend=rrb.PlotLegend(rrb.Corner2D.RightBottom),
+    )
+
+
+def _radio(scene: Scene) -> rrb.View:
+    halves = scene.arena.half_x_m, scene.arena.half_y_m
+    reach_x, reach_y = (0.56 * GRAPH_SIZE * half / max(halves) for half in halves)
+    return rrb.GraphView(
+        origin="/radio/graph",
+        name="Who hears whom",
+        visual_bounds=rrb.VisualBounds2D(x_range=(-reach_x, reach_x), y_range=(-reach_y, reach_y)),
+    )
+
+
+def _lanes() -> rrb.View:
+    return rrb.StateTimelineView(origin="/agents", contents="/agents/**", name="What each agent does")
+
+
+def _events() -> rrb.View:
+    kind = rrb.encodings.TextLogColumnKind
+    columns = [rrb.encodings.TextLogColumn(shown) for shown in (kind.LogLevel, kind.Body)]
+    return rrb.TextLogView(
+        origin="/log",
+        contents="/log/**",
+        name="Events",
+        columns=rrb.TextLogColumns(timeline_columns=[TIME_LINE], text_log_columns=columns),
+    )
+
+
+def _telemetry() -> rrb.Container:
+    views = [
+        rrb.TimeSeriesView(origin=f"/telemetry/{what}", name=name)
+        for what, name in (
+            ("altitude", "Altitude, m"),
+            ("speed", "Speed, m/s"),
+            ("battery", "Battery, share left"),
+            ("tick_late", "Tick lateness, s"),
+        )
+    ]
+    utilization = rrb.TimeSeriesView(origin="/metrics/utilization", name="Utilization")
+    net = rrb.TimeSeriesView(origin="/metrics/net", name="Radio, frames a second")
+    return rrb.Grid(*views, utilization, net, grid_columns=2, name="Telemetry")
+
+
+def _map() -> rrb.View:
+    return rrb.MapView(origin="/geo", name="Map")
+
+
+def _raw() -> rrb.Container:
+    table = rrb.DataframeView(
+        origin="/",
+        contents=["/metrics/**", "/telemetry/**"],
+        name="Numbers",
+        query=rrb.archetypes.DataframeQuery(timeline=TICK_LINE),
+    )
+    return rrb.Horizontal(
+        rrb.TextDocumentView(origin="/mission", name="The mission"), table, column_shares=[2, 3], name="Raw"
+    )

@@ -1,0 +1,68 @@
+"""What is plotted over time: how well the mission goes, and the agents' telemetry."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+import rerun as rr
+
+from missions.observation import Observation
+from missions.recording.block import Block, Floats
+from missions.recording.columns import Rows
+from missions.recording.scene import Scene
+
+_STEP_S = 1.0
+
+
+class Metrics:
+    """How well the mission goes: coverage, utilization, radio traffic a second."""
+
+    def __init__(self, scene: Scene) -> None:
+        self._scene = scene
+        self._radio: Observation | None = None
+
+    def rows(self, block: Block) -> Iterator[Rows]:
+        """Coverage at every tick of the mission proper; radio once a second."""
+        counted = Block(self._scene, [seen for seen in block.observations if seen.coverage is not None])
+        now_and_mean = [(seen.coverage, seen.coverage_mean) for seen in counted.observations]
+        yield Rows("/metrics/coverage", counted, _vectors(now_and_mean, 2))
+        seconds = counted.every(_STEP_S)
+        yield Rows("/metrics/utilization", seconds, _vectors([(s.utilization,) for s in seconds.observations], 1))
+        if self._scene.coverage_floor is not None:
+            yield Rows("/metrics/floor", seconds, _vectors([(self._scene.coverage_floor,)] * len(seconds), 1))
+        yield from self._traffic(block.every(_STEP_S))
+
+    def _traffic(self, block: Block) -> Iterator[Rows]:
+        rates, since = [], []
+        for seen in block.observations:
+            before, self._radio = self._radio, seen
+            if before is None or seen.time_s <= before.time_s:
+                continue
+            span_s = seen.time_s - before.time_s
+            sent, delivered = seen.radio_sent - before.radio_sent, seen.radio_delivered - before.radio_delivered
+            rates.append((sent / span_s, delivered / span_s))
+            since.append(seen)
+        yield Rows("/metrics/net", Block(self._scene, since), _vectors(rates, 2))
+
+
+class Telemetry:
+    """Vectors over the agents, once a second: battery, altitude, speed; and how late every tick was."""
+
+    def __init__(self, scene: Scene) -> None:
+        self._n = scene.n_agents
+
+    def rows(self, block: Block) -> Iterator[Rows]:
+        """The telemetry."""
+        late = [(seen.tick_late_s,) for seen in block.observations]
+        yield Rows("/telemetry/tick_late", block, _vectors(late, 1))
+        block = block.every(_STEP_S)
+        yield Rows("/telemetry/battery", block, _vectors(block.batteries, self._n))
+        yield Rows("/telemetry/altitude", block, _vectors(block.positions_m[..., 2], self._n))
+        yield Rows("/telemetry/speed", block, _vectors(block.speeds_m_s, self._n))
+
+
+def _vectors(rows: Sequence[tuple[float | None, ...]] | Floats, width: int) -> rr.ComponentColumnList:
+    """Rows of `width` scalars; None becomes nan."""
+    values = np.asarray(rows, dtype=np.float64).reshape(-1)
+    return rr.Scalars.columns(scalars=values).partition([width] * (len(values) // width))

@@ -1,0 +1,55 @@
+"""The colors of a recording: one for each activity, the same in every view. 0xRRGGBBAA throughout."""
+
+from __future__ import annotations
+
+from comms.status import Activity, Level
+
+ACTIVITY_COLORS: dict[Activity, int] = {
+    Activity.PREPARING: 0x9FB3C8FF,
+    Activity.EXPLORE: 0x4FA3FFFF,
+    Activity.FOLLOW: 0x3DDC97FF,
+    Activity.CALLING: 0xFFB020FF,
+    Activity.HELPING: 0xC77DFFFF,
+    Activity.RETURNING: 0x8A94A6FF,
+    Activity.LANDED: 0x5B6472FF,
+    Activity.LOST: 0xFF5C5CFF,
+}
+
+LEVEL_COLORS: dict[Level, int] = {Level.INFO: 0xC9D3E0FF, Level.WARNING: 0xFFB020FF, Level.ERROR: 0xFF5C5CFF}
+
+TAGGED = 0xFFE066FF  # ring of a target that somebody owns
+SEEN = 0xD8BE58B0  # ring of a target that is seen, and nobody's
+UNSEEN = 0xFF5C5CFF  # ring and body of a target out of sight
+TARGET = 0xFFF3C4FF
+
+BACKGROUND = 0x06080EFF
+GROUND = 0x090D17FF  # never seen
+GROUND_REMEMBERED = 0x0F233FFF  # seen long ago
+GROUND_FRESH = 0x1D5596FF  # seen now
+GRID = 0x50689060
+EDGE = 0x7D95BFFF
+LINK = 0xA9C0E04C
+
+COVERAGE_NOW = 0x3DDC9799
+COVERAGE_MEAN = 0xFFFFFFFF
+COVERAGE_FLOOR = 0x6E7A90FF
+UTILIZATION = 0xFFB020FF
+RADIO_SENT = 0x4FA3FFFF
+RADIO_DELIVERED = 0x3DDC97FF
+TICK_LATE = 0xFF5C5CFF
+
+# Agents side by side in one plot, where the activity's color would say nothing about who it is.
+_SERIES = (
+    0x4FA3FFFF, 0x3DDC97FF, 0xFFB020FF, 0xC77DFFFF, 0xFF7AA2FF,
+    0x5CE1E6FF, 0xD4E157FF, 0xFF8A5CFF, 0x9AA5FFFF, 0xE0C8A0FF,
+)  # fmt: skip
+
+
+def with_alpha(color: int, alpha: int) -> int:
+    """`color` with its opacity replaced, 0 to 255."""
+    return (color & 0xFFFFFF00) | alpha
+
+
+def series_colors(count: int) -> list[int]:
+    """A color for each of `count` plotted agents; they repeat after ten."""
+    return [_SERIES[number % len(_SERIES)] for number in range(count)]

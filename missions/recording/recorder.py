@@ -1,0 +1,156 @@
+"""The recorder: a bounded queue, and behind it one thread that draws every observation."""
+
+from __future__ import annotations
+
+import logging
+import os
+import queue
+import threading
+from pathlib import Path
+from types import TracebackType
+
+from missions.observation import Observation
+from missions.recording.block import Block
+from missions.recording.blueprint import blueprint
+from missions.recording.charts import Metrics, Telemetry
+from missions.recording.columns import Layer
+from missions.recording.ground import SeenGround
+from missions.recording.optimize import optimize
+from missions.recording.places import Places
+from missions.recording.relations import Relations
+from missions.recording.scene import Scene
+from missions.recording.stage import set_stage
+from missions.recording.story import EventLog, Lanes
+from missions.recording.swarm import Swarm
+from missions.recording.tape import Tape
+from missions.recording.targets import Targets
+
+_QUEUED_S = 5.0
+_LAYERS = (SeenGround, Swarm, Targets, Relations, Lanes, EventLog, Metrics, Telemetry, Places)
+_log = logging.getLogger(__name__)
+
+
+class RecordingError(RuntimeError):
+    """The recorder failed; the mission did not. The cause says why."""
+
+
+class Recorder:
+    """Records a mission into a file, `F.rrd.part` while it runs and `F.rrd` once it is whole.
+
+    Args:
+        path: the recording. Its folder must exist; a file of that name is replaced at the end.
+        scene: what stands still.
+        live: serve the recording on this machine as well, and start a viewer.
+        lossless: wait when the recorder is behind, so that the recording is complete and repeats exactly (lockstep);
+            else drop the observation and count it (real time).
+
+    A killed process loses at most the last second: `optimize` turns its `F.rrd.part` into a proper recording.
+    """
+
+    def __init__(self, path: Path | str, *, scene: Scene, live: bool = False, lossless: bool = True) -> None:
+        self.path = Path(path)
+        self.dropped = 0
+        self._scene = scene
+        self._live = live
+        self._lossless = lossless
+        self._part = self.path.with_name(self.path.name + ".part")
+        self._tape = Tape(scene=scene)
+        self._queue: queue.Queue[Observation | None] = queue.Queue(max(2, round(_QUEUED_S * scene.ticks_per_s)))
+        self._thread = threading.Thread(target=self._run, name="recorder", daemon=True)
+        self._error: BaseException | None = None
+        self._failed = threading.Event()
+
+    @property
+    def live_url(self) -> str | None:
+        """Where a viewer on this machine can join in, while a live recorder is open."""
+        return self._tape.live_url
+
+    def __enter__(self) -> Recorder:
+        """Open the file and start the thread.
+
+        Raises:
+            RecordingError: the file cannot be written.
+        """
+        try:
+            self._tape.open_file(self._part, blueprint(self._scene, live=False))
+            if self._live:
+                self._tape.open_live(blueprint(self._scene, live=True))
+            set_stage(self._tape, self._scene)
+        except Exception as error:
+            raise RecordingError(f"cannot record to {self._part}: {error}") from error
+        self._thread.start()
+        return self
+
+    def observe(self, observation: Observation) -> None:
+        """Record one tick. Costs the caller a queue entry; never raises on account of the recording."""
+        if self._failed.is_set():
+            return
+        if self._lossless:
+            self._queue.put(observation)
+            return
+        try:
+            self._queue.put_nowait(observation)
+        except queue.Full:
+            self.dropped += 1
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Finish the file.
+
+        Raises:
+            RecordingError: something went wrong while recording, unless the mission itself failed: then it is logged.
+        """
+        self._queue.put(None)
+        self._thread.join()
+        try:
+            self._finish()
+        except RecordingError as failure:
+            if kind is None:
+                raise
+            _log.error("%s", failure)
+
+    def _finish(self) -> None:
+        try:
+            self._tape.close()
+        except Exception as error:
+            self._error = self._error or error
+        if self._error is not None:
+            raise RecordingError(
+                f"recording failed, what there is lies in {self._part}: {self._error}"
+            ) from self._error
+        try:
+            optimize(self._part, self.path)
+            self._part.unlink()
+        except RuntimeError as error:
+            _log.warning("%s; the recording is complete, but larger than need be", error)
+            os.replace(self._part, self.path)
+
+    def _run(self) -> None:
+        try:
+            self._record()
+        except BaseException as error:
+            self._error = error
+            self._failed.set()
+            # The mission goes on: whoever waits for room in the queue gets it.
+            while self._queue.get() is not None:
+                pass
+
+    def _record(self) -> None:
+        layers: list[Layer] = [kind(self._scene) for kind in _LAYERS]
+        ticks = 1 if self._live else self._scene.ticks_per_s
+        waiting: list[Observation] = []
+        while (observation := self._queue.get()) is not None:
+            waiting.append(observation)
+            if len(waiting) == ticks:
+                self._draw(layers, waiting)
+                waiting = []
+        if waiting:
+            self._draw(layers, waiting)
+
+    def _draw(self, layers: list[Layer], observations: list[Observation]) -> None:
+        block = Block(self._scene, observations)
+        for layer in layers:
+            for rows in layer.rows(block):
+                self._tape.send(rows)
+        self._tape.flush()

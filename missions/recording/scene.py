@@ -1,0 +1,70 @@
+"""What stands still while a mission is recorded: where it is flown, by how many, and with which settings."""
+
+from __future__ import annotations
+
+import uuid
+from dataclasses import asdict, dataclass
+from math import hypot
+
+from comms.arena import Arena
+from comms.frames import GeoPoint
+
+# Any fixed namespace will do; this one makes equal scenes share one recording id.
+_NAMESPACE = uuid.UUID("6f1d4c58-3c0e-5d3b-9a52-0f3c8f6a7d21")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Scene:
+    """Everything the recorder must know before the first tick.
+
+    Attributes:
+        mission_name: the recording's title. mission_yaml: the mission with every default and --set resolved.
+        seed, policy, versions: stored as properties, beside the mission. versions: name -> version (or git hash).
+        tick_s: mission time between two observations.
+        sensing_range_m: radius of every agent's sensing disc on the ground.
+        home: where ENU (0, 0, 0) is on the globe.
+        coverage_floor: coverage of agents placed at random and standing still, drawn as a dim line; None when unknown.
+    """
+
+    mission_name: str
+    mission_yaml: str
+    seed: int
+    policy: str
+    versions: dict[str, str]
+    tick_s: float
+    arena: Arena
+    n_agents: int
+    n_targets: int
+    sensing_range_m: float
+    home: GeoPoint
+    coverage_floor: float | None = None
+
+    @property
+    def ticks_per_s(self) -> int:
+        """Ticks in one second of mission time, at least 1."""
+        return max(1, round(1.0 / self.tick_s))
+
+    @property
+    def size_m(self) -> float:
+        """The length that glyphs are scaled by: half the arena's diagonal, or a disc's radius times the same root 2."""
+        return hypot(self.arena.half_x_m, self.arena.half_y_m)
+
+    @property
+    def agent_names(self) -> list[str]:
+        """ "A0", "A1", ...: padded with zeros so that they sort."""
+        return _names("A", self.n_agents)
+
+    @property
+    def target_names(self) -> list[str]:
+        """ "T0", "T1", ...: padded with zeros so that they sort."""
+        return _names("T", self.n_targets)
+
+    @property
+    def recording_id(self) -> str:
+        """A UUID that depends on nothing but the scene, so that the same mission records the same."""
+        return str(uuid.uuid5(_NAMESPACE, repr(asdict(self))))
+
+
+def _names(letter: str, count: int) -> list[str]:
+    width = len(str(max(count - 1, 0)))
+    return [f"{letter}{number:0{width}d}" for number in range(count)]

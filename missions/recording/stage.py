@@ -1,0 +1,206 @@
+"""What is drawn once: the ground under everything, names, sizes, line styles, and the recording's properties."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import rerun as rr
+
+from comms.frames import geo_from_enu
+from comms.status import Activity
+from missions.recording import palette, shapes
+from missions.recording.columns import on_ground
+from missions.recording.scene import Scene
+from missions.recording.tape import Tape
+
+# Words short enough for a lane of a few seconds.
+_LANE_WORDS: dict[Activity, str] = {
+    Activity.PREPARING: "prepare",
+    Activity.EXPLORE: "explore",
+    Activity.FOLLOW: "follow",
+    Activity.CALLING: "calls",
+    Activity.HELPING: "helps",
+    Activity.RETURNING: "return",
+    Activity.LANDED: "landed",
+    Activity.LOST: "LOST",
+}
+
+# Beyond so many, names of targets hide more than they tell; they still show when pointed at.
+_NAMED_TARGETS = 20
+
+
+@dataclass(frozen=True, slots=True)
+class Sizes:
+    """Glyph sizes that look the same in a 30 m disc and in a 1.5 km square, metres."""
+
+    unit_m: float
+
+    @classmethod
+    def of(cls, scene: Scene) -> Sizes:
+        """The sizes for this scene's arena."""
+        return cls(scene.size_m / 100)
+
+    @property
+    def arrow_m(self) -> float:
+        """The arrow that shows an agent's heading, tail to tip."""
+        return 5.0 * self.unit_m
+
+    @property
+    def tag_radius_m(self) -> float:
+        """The ring around a target."""
+        return 1.7 * self.unit_m
+
+    @property
+    def call_radius_m(self) -> float:
+        """The ring around a target that help is called for."""
+        return 2.8 * self.unit_m
+
+
+def set_stage(tape: Tape, scene: Scene) -> None:
+    """Record everything static."""
+    tape.log_static("/world", rr.ViewCoordinates.RIGHT_HAND_Z_UP)
+    _set_ground(tape, scene)
+    _set_agents(tape, scene)
+    _set_targets(tape, scene)
+    _set_lines(tape, scene)
+    _set_charts(tape, scene)
+    _set_map(tape, scene)
+    _set_properties(tape, scene)
+
+
+def _on_screen(points: float) -> list[float]:
+    """A radius in points of the screen, whatever the distance: rerun writes it as a negative number."""
+    return [-points]
+
+
+def _set_ground(tape: Tape, scene: Scene) -> None:
+    unit = Sizes.of(scene).unit_m
+    vertices, triangles = shapes.ground_mesh(scene.arena)
+    height = np.full((len(vertices), 1), -0.02 * unit, dtype=np.float32)
+    mesh = rr.Mesh3D(vertex_positions=np.hstack((vertices, height)), triangle_indices=triangles)
+    tape.log_static("/world/seen", mesh)
+    edge = shapes.edge_line(scene.arena)
+    tape.log_static(
+        "/world/arena/edge",
+        rr.LineStrips3D([on_ground(edge)], colors=[palette.EDGE], radii=_on_screen(1.6)),
+    )
+    grid = shapes.grid_lines(scene.arena)
+    tape.log_static(
+        "/world/arena/grid",
+        rr.LineStrips3D(on_ground(grid), colors=[palette.GRID], radii=_on_screen(0.5)),
+    )
+
+
+def _set_agents(tape: Tape, scene: Scene) -> None:
+    sizes = Sizes.of(scene)
+    tape.log_static(
+        "/world/agents/body",
+        rr.Points3D.from_fields(labels=scene.agent_names, show_labels=True, radii=_on_screen(3.0)),
+    )
+    tape.log_static("/world/agents/heading", rr.Arrows3D.from_fields(radii=[sizes.arrow_m / 6.5]))
+    tape.log_static("/world/agents/stem", rr.LineStrips3D.from_fields(radii=_on_screen(0.6)))
+    tape.log_static("/world/agents/trail", rr.LineStrips3D.from_fields(radii=_on_screen(1.2)))
+    tape.log_static(
+        "/world/agents/sensing",
+        rr.Cylinders3D.from_fields(
+            lengths=[0.002 * sizes.unit_m],
+            line_radii=_on_screen(1.1),
+            fill_mode=rr.components.FillMode.TransparentFillMajorWireframe,
+        ),
+    )
+
+
+def _set_targets(tape: Tape, scene: Scene) -> None:
+    sizes = Sizes.of(scene)
+    named = scene.n_targets <= _NAMED_TARGETS
+    tape.log_static(
+        "/world/targets/body",
+        rr.Points3D.from_fields(radii=_on_screen(4.0), show_labels=named),
+    )
+    for path, width in (("tags", 1.8), ("calls", 1.4)):
+        tape.log_static(
+            f"/world/targets/{path}",
+            rr.Cylinders3D.from_fields(
+                lengths=[0.002 * sizes.unit_m],
+                line_radii=_on_screen(width),
+                fill_mode=rr.components.FillMode.MajorWireframe,
+            ),
+        )
+
+
+def _set_lines(tape: Tape, scene: Scene) -> None:
+    tape.log_static("/world/tracks", rr.LineStrips3D.from_fields(radii=_on_screen(0.8)))
+    tape.log_static("/world/links", rr.LineStrips3D.from_fields(radii=_on_screen(0.5), colors=[palette.LINK]))
+    tape.log_static("/world/help", rr.Arrows3D.from_fields(radii=_on_screen(2.0), show_labels=True))
+
+
+def _set_charts(tape: Tape, scene: Scene) -> None:
+    lanes = rr.StateConfiguration(
+        values=[activity.value for activity in _LANE_WORDS],
+        labels=list(_LANE_WORDS.values()),
+        colors=np.array([palette.ACTIVITY_COLORS[activity] for activity in _LANE_WORDS], dtype=np.uint32),
+    )
+    for name in scene.agent_names:
+        tape.log_static(f"/agents/{name}/mode", lanes)
+    for path, style in _chart_styles(scene).items():
+        names, colors, widths = zip(*style, strict=True)
+        tape.log_static(path, rr.SeriesLines(names=names, colors=np.array(colors, dtype=np.uint32), widths=widths))
+
+
+def _chart_styles(scene: Scene) -> dict[str, list[tuple[str, int, float]]]:
+    """For each plotted vector: name, color and line width of its elements, in their order."""
+    agents = [
+        (name, color, 1.2) for name, color in zip(scene.agent_names, palette.series_colors(scene.n_agents), strict=True)
+    ]
+    return {
+        "/metrics/coverage": [
+            ("seen now", palette.COVERAGE_NOW, 1.0),
+            ("mean so far", palette.COVERAGE_MEAN, 2.2),
+        ],
+        "/metrics/floor": [("random, standing still", palette.COVERAGE_FLOOR, 1.0)],
+        "/metrics/utilization": [("utilization", palette.UTILIZATION, 1.6)],
+        "/metrics/net": [
+            ("frames sent /s", palette.RADIO_SENT, 1.4),
+            ("frames delivered /s", palette.RADIO_DELIVERED, 1.4),
+        ],
+        "/telemetry/battery": agents,
+        "/telemetry/altitude": agents,
+        "/telemetry/speed": agents,
+        "/telemetry/tick_late": [("tick late", palette.TICK_LATE, 1.4)],
+    }
+
+
+def _set_map(tape: Tape, scene: Scene) -> None:
+    places = [geo_from_enu(scene.home, (float(x), float(y), 0.0)) for x, y in shapes.edge_line(scene.arena)]
+    line = [(place.latitude_deg, place.longitude_deg) for place in places]
+    tape.log_static(
+        "/geo/arena",
+        rr.GeoLineStrings(lat_lon=[line], colors=[palette.EDGE], radii=_on_screen(1.5)),
+    )
+    tape.log_static("/geo/agents", rr.GeoPoints.from_fields(radii=_on_screen(5.0)))
+    tape.log_static("/geo/targets", rr.GeoPoints.from_fields(radii=_on_screen(3.0)))
+
+
+def _set_properties(tape: Tape, scene: Scene) -> None:
+    tape.set_property(
+        "mission",
+        rr.AnyValues(
+            name=scene.mission_name,
+            policy=scene.policy,
+            seed=scene.seed,
+            agents=scene.n_agents,
+            targets=scene.n_targets,
+            tick_s=scene.tick_s,
+            yaml=scene.mission_yaml,
+        ),
+    )
+    if scene.versions:
+        tape.set_property("versions", rr.AnyValues(drop_untyped_nones=True, **scene.versions))
+    tape.log_static("/mission", rr.TextDocument(_about(scene), media_type=rr.MediaType.MARKDOWN))
+
+
+def _about(scene: Scene) -> str:
+    facts = {"policy": scene.policy, "seed": str(scene.seed), **scene.versions}
+    table = "\n".join(f"| {name} | `{value}` |" for name, value in facts.items())
+    return f"# {scene.mission_name}\n\n| | |\n|---|---|\n{table}\n\n```yaml\n{scene.mission_yaml.rstrip()}\n```\n"

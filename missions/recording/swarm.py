@@ -1,0 +1,66 @@
+"""The agents in 3D: dart and name, stem down to the ground, sensing disc, trail."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import rerun as rr
+
+from comms.status import Activity
+from missions.recording import shapes
+from missions.recording.block import LINE_STEP_S, Block, Floats
+from missions.recording.columns import Rows, doing, faded, pieces, rings
+from missions.recording.scene import Scene
+from missions.recording.stage import Sizes
+
+GROUNDED = frozenset({Activity.PREPARING, Activity.LANDED})
+
+# The trail is a chain of short pieces, each recorded once; the view shows the latest of them.
+_TRAIL_STEP_S = 0.5
+_STEM_ALPHA, _TRAIL_ALPHA, _DISC_ALPHA = 110, 130, 150
+_FLAT = np.array((1, 1, 0), dtype=np.float32)
+
+
+class Swarm:
+    """Draws agents where their vehicles truly are, in the color of what they do."""
+
+    def __init__(self, scene: Scene) -> None:
+        self._n = scene.n_agents
+        self._range_m = scene.sensing_range_m
+        self._arrow_m = np.float32(Sizes.of(scene).arrow_m)
+        self._trail_end_m: Floats | None = None
+
+    def rows(self, block: Block) -> Iterator[Rows]:
+        """Bodies at every tick, stems and sensing discs less often, a piece of trail twice a second."""
+        yield from self._bodies(block)
+        yield from self._footprints(block.every(LINE_STEP_S))
+        yield from self._trail(block.every(_TRAIL_STEP_S))
+
+    def _bodies(self, block: Block) -> Iterator[Rows]:
+        colors, each = block.colors.ravel(), np.full(len(block), self._n)
+        bodies = rr.Points3D.columns(positions=block.positions_m.reshape(-1, 3), colors=colors)
+        yield Rows("/world/agents/body", block, bodies.partition(each))
+        ahead = self._arrow_m * shapes.compass(block.headings_rad).reshape(-1, 3)
+        tails = block.positions_m.reshape(-1, 3)
+        arrows = rr.Arrows3D.columns(origins=tails, vectors=ahead, colors=colors)
+        yield Rows("/world/agents/heading", block, arrows.partition(each))
+
+    def _footprints(self, block: Block) -> Iterator[Rows]:
+        flying = doing(block, lambda activity: activity not in GROUNDED)
+        here, colors, counts = block.positions_m[flying], block.colors[flying], flying.sum(axis=1)
+        below = here * _FLAT
+        stems = np.stack((here, below), axis=1)
+        yield Rows("/world/agents/stem", block, pieces(stems, faded(colors, _STEM_ALPHA), counts))
+        yield Rows("/world/agents/sensing", block, rings(below, self._range_m, faded(colors, _DISC_ALPHA), counts))
+
+    def _trail(self, block: Block) -> Iterator[Rows]:
+        if not len(block):
+            return
+        ends = block.positions_m
+        before = ends[:1] if self._trail_end_m is None else self._trail_end_m[None]
+        starts = np.concatenate((before, ends[:-1]))
+        self._trail_end_m = ends[-1]
+        steps = np.stack((starts, ends), axis=2)
+        counts = np.full(len(block), self._n)
+        yield Rows("/world/agents/trail", block, pieces(steps, faded(block.colors.ravel(), _TRAIL_ALPHA), counts))
