@@ -2,10 +2,12 @@
 it back. Sans-io: bytes in, bytes out, time an argument.
 
     pilot = Pilot(PilotConfig(uid=3, system_id=4, home=home, altitude_m=16.0, max_speed_m_s=5.0))
-    wire_out = pilot.tick(now_s, wire_in, Prepare())          # until pilot.state.ready
-    wire_out = pilot.tick(now_s, wire_in, Fly((2.0, -1.0)))   # each tick: velocity east, north
-    wire_out = pilot.tick(now_s, wire_in, Return())           # until pilot.state.phase is Phase.DONE (or FAILED)
-    for event in pilot.take_events(): ...                     # the autopilot's texts, refusals, retries
+    pilot.listen(now_s, wire_in)                      # each tick: what the vehicle sent
+    where = pilot.state.position_m                    # ENU metres in the mission's frame
+    wire_out = pilot.act(now_s, Prepare())            # until pilot.state.ready
+    wire_out = pilot.act(now_s, Fly((2.0, -1.0)))     # each tick: velocity east, north
+    wire_out = pilot.act(now_s, Return())             # until pilot.state.phase is Phase.DONE (or FAILED)
+    for event in pilot.take_events(): ...             # the autopilot's texts, refusals, retries
 
 Where to look: `state.Phase` is the state table, `ground`, `airborne` and `ending` are its rows (one small class each),
 `preflight` the checklist before arming, `transaction` how a request is sent and answered, `errand` how it is seen

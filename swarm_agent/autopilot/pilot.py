@@ -46,18 +46,25 @@ class Pilot:
         self._restarts = 0
 
     def tick(self, now_s: float, wire_in: bytes, intent: Intent) -> bytes:
-        """One tick: what the vehicle sent since the last one in, what to send it out. Never raises on `wire_in`.
+        """`listen`, then `act`: for whoever knows what it wants without looking at the vehicle first."""
+        self.listen(now_s, wire_in)
+        return self.act(now_s, intent)
+
+    def listen(self, now_s: float, wire_in: bytes) -> None:
+        """Take in what the vehicle has sent since the last call; `state` is of now. Never raises on `wire_in`.
 
         Args:
             now_s: the mission clock; it never falls back.
             wire_in: raw bytes from the link, whole frames or not.
-            intent: what the agent wants now.
         """
-        cockpit = self._cockpit
-        cockpit.begin_tick()
+        self._cockpit.begin_tick()
         self._hear(wire_in, now_s)
-        self._beat(now_s)
         self._watch_link(now_s)
+
+    def act(self, now_s: float, intent: Intent) -> bytes:
+        """What to send to the vehicle now, given what the agent wants; once after each `listen`."""
+        cockpit = self._cockpit
+        self._beat(now_s)
         if cockpit.telemetry.autopilot is not None:
             self._streams.tick(cockpit, now_s)
         self._stage = self._stage.tick(cockpit, now_s, intent)
@@ -65,7 +72,7 @@ class Pilot:
 
     @property
     def state(self) -> PilotState:
-        """The vehicle as of the last tick."""
+        """The vehicle and the flight as of now."""
         telemetry, stage = self._cockpit.telemetry, self._stage
         return PilotState(
             phase=stage.phase,
