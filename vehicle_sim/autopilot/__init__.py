@@ -1,0 +1,16 @@
+"""A simulated ArduCopter, sans-io: MAVLink bytes in, MAVLink bytes out, on the mission's clock.
+
+    from vehicle_sim.autopilot import SimulatedVehicle
+    from vehicle_sim.vehicle import VehicleConfig
+
+    vehicle = SimulatedVehicle(config=VehicleConfig(), system_id=3, home=home, seed=7)
+    wire_out = vehicle.tick(now_s, wire_in)  # wire_in acts from the last tick on
+    vehicle.truth.position_ned_m             # north, east, down of its own home, meters
+
+Tables to read first: `modes`, `commands`, `parameters`, `streams`, `telemetry` and the `boot` sequence. `core` is the
+autopilot without its wire, `guidance` turns its mode into a demand, `setpoints` reads what a ground station asks for.
+"""
+
+from vehicle_sim.autopilot.vehicle import SimulatedVehicle
+
+__all__ = ["SimulatedVehicle"]

@@ -1,0 +1,237 @@
+"""The autopilot itself, without its wire: mode, arming, failsafe, and time going by.
+
+What it has to say is collected in `texts`; `announce` is set when a heartbeat should go out at once.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import ceil, isfinite
+
+from comms.frames import GeoPoint
+from vehicle_sim.autopilot.boot import NEED_POSITION, Boot
+from vehicle_sim.autopilot.guidance import TIME_SLACK_S, Guidance
+from vehicle_sim.autopilot.modes import GCS_FAILSAFE_MODES, MODES, Mode
+from vehicle_sim.autopilot.parameters import LIMIT_NAMES, Parameters
+from vehicle_sim.battery import IDLE_SHARE, Charge
+from vehicle_sim.flight import Airframe, Multirotor
+from vehicle_sim.vehicle import VehicleConfig
+from vehicle_sim.wind import LocalWind
+
+CRITICAL, WARNING, INFO = 2, 4, 6  # STATUSTEXT severities
+
+STEP_S = {"simulated": 0.05, "ideal": 0.1}
+LANDED_AFTER_S = 1.3  # on the ground until the land detector believes it (recorded)
+DISARMED_AFTER_S = 2.1  # on the ground until LAND and RTL disarm (recorded)
+PREARM_PERIOD_S = 30.0
+YAW_ALIGNMENT_M = 2.5
+HIGHEST_TAKEOFF_M = 10_000.0
+FASTEST_M_S = 100.0
+
+
+class Autopilot:
+    """One vehicle's autopilot with its airframe, battery, boot sequence and parameters. Local frame: NED from home."""
+
+    def __init__(
+        self,
+        *,
+        config: VehicleConfig,
+        system_id: int,
+        home: GeoPoint,
+        heading_rad: float,
+        seed: int,
+        started_at_s: float,
+    ) -> None:
+        self.home = home
+        self.system_id = system_id
+        self.started_at_s = self.now_s = started_at_s
+        self.wind = LocalWind(config.wind, seed=seed, who=system_id)
+        self.parameters = Parameters(
+            system_id=system_id, limits=config.limits, capacity_mah=config.battery.capacity_mah
+        )
+        self.airframe: Airframe
+        if config.kind == "ideal":
+            self.airframe = Airframe(limits=config.limits, yaw_rad=heading_rad)
+        else:
+            self.airframe = Multirotor(
+                limits=config.limits, yaw_rad=heading_rad, trimmed_ne_m_s=self.wind.steady_ne_m_s
+            )
+        self.charge = Charge(config.battery)
+        self.boot = Boot(boot_s=config.boot_s, field_elevation_m=home.altitude_m)
+        self.guidance = Guidance(airframe=self.airframe, parameters=self.parameters)
+        self.mode = Mode.STABILIZE
+        self.armed = False
+        self.flying = False  # the autopilot's belief: from the spool-up until the land detector
+        self.failsafe = False
+        self.texts: list[tuple[int, str]] = []
+        self.announce = False
+        self.home_news = False  # home or origin was just set: the link sends both unasked
+        self._step_s = STEP_S[config.kind]
+        self._idle_since_s = started_at_s
+        self._next_prearm_s = started_at_s + PREARM_PERIOD_S
+        self._gcs_heard_at_s: float | None = None
+        self._yaw_aligned = False
+
+    # What a ground station asks for. Each returns whether it was done.
+
+    def set_mode(self, number: int) -> bool:
+        """Change the flight mode; a refusal says why."""
+        if number not in Mode.__members__.values():
+            self.say(WARNING, f"No such mode {number}")
+            return False
+        mode = Mode(number)
+        if self.armed and MODES[mode].needs_position and not self.boot.stage.position:
+            self.say(WARNING, f"Mode change to {mode.name} failed: requires position")
+            return False
+        if mode is not self.mode:
+            self.mode = mode
+            self.announce = True
+            self.guidance.enter(mode)
+        return True
+
+    def complaints(self) -> list[str]:
+        """Why it would not arm, in its own words."""
+        reasons = self.boot.stage.complaints
+        return [text for text in reasons if text != NEED_POSITION or MODES[self.mode].needs_position]
+
+    def arm(self, *, forced: bool) -> bool:
+        if self.armed:
+            return True
+        reasons = [] if forced else self.complaints()
+        if not forced and not MODES[self.mode].armable:
+            reasons.append("Mode not armable")
+        for reason in reasons:
+            self.say(CRITICAL, f"Arm: {reason}")
+        if reasons:
+            return False
+        self.armed = self.announce = True
+        self.home_news = self.boot.stage.origin
+        self._idle_since_s = self.now_s
+        self.guidance.enter(self.mode)
+        self.say(INFO, "Arming motors")
+        return True
+
+    def disarm(self, *, forced: bool) -> bool:
+        if not self.armed:
+            return True
+        if self.flying and not forced:
+            return False
+        self.armed = self.flying = self.failsafe = False
+        self.announce = True
+        self.guidance.enter(self.mode)
+        self._next_prearm_s = self.now_s + PREARM_PERIOD_S
+        self.say(INFO, "Disarming motors")
+        return True
+
+    def take_off(self, altitude_m: float) -> bool:
+        """Take off to `altitude_m` above home. Only armed, in GUIDED, on the ground, and to a sane altitude."""
+        ready = self.armed and self.mode is Mode.GUIDED and not self.flying and not self.guidance.taking_off
+        if not ready or not 0.0 < altitude_m <= HIGHEST_TAKEOFF_M:  # NaN compares false
+            return False
+        self.guidance.take_off(altitude_m, self.now_s)
+        return True
+
+    def change_speed(self, kind: int, speed_m_s: float) -> bool:
+        """Another speed limit until the parameters change: 0 and 1 over ground, 2 climb, 3 descent."""
+        field = {0: "speed_m_s", 1: "speed_m_s", 2: "climb_m_s", 3: "descent_m_s"}.get(kind)
+        if field is None or not 0.0 < speed_m_s <= FASTEST_M_S:
+            return False
+        self.airframe.set_limits(replace(self.airframe.limits, **{field: speed_m_s}))
+        return True
+
+    def set_parameter(self, name: str, value: float) -> None:
+        """Store a known parameter; one that is a limit acts at once and ends what DO_CHANGE_SPEED asked for."""
+        if self.parameters.store(name, value):
+            if name in LIMIT_NAMES:
+                self.airframe.set_limits(self.parameters.limits(self.airframe.limits))
+        elif isfinite(value):
+            self.say(WARNING, f"Param write denied ({name})")
+
+    def hear_gcs(self) -> None:
+        """A heartbeat of the ground station that the failsafe counts."""
+        self._gcs_heard_at_s = self.now_s
+        if self.failsafe:
+            self.failsafe = False
+            self.announce = True
+            self.say(WARNING, "GCS Failsafe Cleared")
+
+    # Time.
+
+    def advance(self, now_s: float) -> None:
+        """Live until `now_s`: boot, fly in equal steps no longer than STEP_S, then look at what has happened."""
+        span_s = now_s - self.now_s
+        if span_s <= 0.0:
+            return
+        self._boot(now_s)
+        steps = max(1, ceil(span_s / self._step_s - 1e-6))
+        dt_s = span_s / steps
+        began_s = self.now_s
+        for step in range(steps):
+            self.now_s = began_s + step * dt_s
+            self._fly(dt_s)
+        self.now_s = now_s
+        self._drain(span_s)
+        self._watch_ground()
+        self._watch_gcs()
+
+    def say(self, severity: int, text: str) -> None:
+        self.texts.append((severity, text))
+
+    def _boot(self, now_s: float) -> None:
+        had_origin = self.boot.stage.origin
+        for text in self.boot.advance(now_s - self.started_at_s):
+            self.say(INFO, text)
+        if self.boot.stage.origin and not had_origin:
+            self.home_news = True
+        if not self.armed and now_s >= self._next_prearm_s - TIME_SLACK_S:
+            self._next_prearm_s = now_s + PREARM_PERIOD_S
+            for reason in self.complaints():
+                self.say(CRITICAL, f"PreArm: {reason}")
+
+    def _fly(self, dt_s: float) -> None:
+        frame = self.airframe
+        demand = self.guidance.demand(self.now_s) if self.armed else None
+        if self.guidance.spooled(self.now_s):
+            self.flying = True
+        if frame.on_ground and demand is None:
+            return
+        frame.step(dt_s, demand, self.wind.at(self.now_s))
+        if frame.impact_m_s is not None:
+            self._idle_since_s = self.now_s + dt_s
+            self.say(INFO, f"SIM Hit ground at {frame.impact_m_s:.6g} m/s")
+
+    def _drain(self, span_s: float) -> None:
+        effort = 0.0
+        if self.armed:
+            effort = IDLE_SHARE if self.airframe.on_ground else self.airframe.effort
+        self.charge.drain(effort=effort, dt_s=span_s)
+
+    def _watch_ground(self) -> None:
+        """Notice takeoff and landing, and disarm what has been on the ground for long enough."""
+        if not self.airframe.on_ground:
+            if not self._yaw_aligned and -self.airframe.down_m > YAW_ALIGNMENT_M:
+                self._yaw_aligned = True
+                self.say(INFO, "EKF3 IMU1 MAG0 in-flight yaw alignment complete")
+                self.say(INFO, "EKF3 IMU0 MAG0 in-flight yaw alignment complete")
+            return
+        if not self.armed or self.guidance.taking_off:
+            return
+        idle_s = self.now_s - self._idle_since_s + TIME_SLACK_S
+        landing = self.mode in (Mode.LAND, Mode.RTL)
+        if self.flying and idle_s >= LANDED_AFTER_S:
+            self.flying = False
+        delay_s = DISARMED_AFTER_S if landing else self.parameters["DISARM_DELAY"]
+        if (landing or delay_s > 0.0) and idle_s >= delay_s and not self.flying:
+            self.disarm(forced=False)
+
+    def _watch_gcs(self) -> None:
+        mode = GCS_FAILSAFE_MODES.get(int(self.parameters["FS_GCS_ENABLE"]))
+        if mode is None or self.failsafe or not self.armed or self._gcs_heard_at_s is None:
+            return
+        if self.now_s - self._gcs_heard_at_s > self.parameters["FS_GCS_TIMEOUT"]:
+            self.failsafe = self.announce = True
+            self.say(WARNING, "GCS Failsafe")
+            if self.flying:
+                self.set_mode(mode)
+            else:
+                self.disarm(forced=True)

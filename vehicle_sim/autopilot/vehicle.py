@@ -1,0 +1,210 @@
+"""A simulated vehicle on a MAVLink link: bytes in, time, bytes out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from pymavlink.dialects.v20 import ardupilotmega as dialect
+
+from comms.frames import GeoPoint
+from comms.mavlink import Endpoint
+from vehicle_sim.autopilot.commands import Request, run, set_mode
+from vehicle_sim.autopilot.core import Autopilot
+from vehicle_sim.autopilot.parameters import INDEX, TABLE
+from vehicle_sim.autopilot.setpoints import global_setpoint, local_setpoint
+from vehicle_sim.autopilot.streams import ALL_GROUPS, GROUPS, Streams
+from vehicle_sim.autopilot.telemetry import BUILDERS
+from vehicle_sim.vehicle import VehicleConfig, VehicleTruth
+
+HEARTBEAT_ID, HOME_ID, ORIGIN_ID = 0, 242, 49
+SET_MODE_ID = 11
+UNKNOWN_INDEX = 65535
+DOES_NOT_EXIST = 1  # MAV_PARAM_ERROR
+TEXT_BYTES = 50
+BYTES_A_TICK = 65536  # more than this from one link in one tick is dropped
+
+
+class SimulatedVehicle:
+    """An ArduCopter with its autopilot, in process and on the mission's clock.
+
+        vehicle = SimulatedVehicle(config=VehicleConfig(), system_id=1, home=GeoPoint(47.4, 8.5, 488.0))
+        wire_out = vehicle.tick(0.1, wire_in)
+
+    Args:
+        home: where it stands at power-on; its local north-east-down frame starts here.
+        heading_rad: where its nose points, clockwise from north.
+        seed: of the gusts. started_at_s: power-on, on the mission clock.
+    """
+
+    def __init__(
+        self,
+        *,
+        config: VehicleConfig,
+        system_id: int,
+        home: GeoPoint,
+        heading_rad: float = 0.0,
+        seed: int = 0,
+        started_at_s: float = 0.0,
+    ) -> None:
+        self.autopilot = Autopilot(
+            config=config,
+            system_id=system_id,
+            home=home,
+            heading_rad=heading_rad,
+            seed=seed,
+            started_at_s=started_at_s,
+        )
+        self.endpoint = Endpoint(system_id=system_id)
+        self.streams = Streams(started_at_s=started_at_s)
+        self._handlers: dict[int, Callable[[Any], None]] = {
+            dialect.MAVLINK_MSG_ID_HEARTBEAT: self._on_heartbeat,
+            dialect.MAVLINK_MSG_ID_SET_MODE: self._on_set_mode,
+            dialect.MAVLINK_MSG_ID_PARAM_REQUEST_READ: self._on_param_read,
+            dialect.MAVLINK_MSG_ID_PARAM_REQUEST_LIST: self._on_param_list,
+            dialect.MAVLINK_MSG_ID_PARAM_SET: self._on_param_set,
+            dialect.MAVLINK_MSG_ID_REQUEST_DATA_STREAM: self._on_data_stream,
+            dialect.MAVLINK_MSG_ID_COMMAND_INT: self._on_command_int,
+            dialect.MAVLINK_MSG_ID_COMMAND_LONG: self._on_command_long,
+            dialect.MAVLINK_MSG_ID_SET_POSITION_TARGET_LOCAL_NED: self._on_local_target,
+            dialect.MAVLINK_MSG_ID_SET_POSITION_TARGET_GLOBAL_INT: self._on_global_target,
+        }
+
+    def tick(self, now_s: float, wire_in: bytes = b"") -> bytes:
+        """Take `wire_in` at the time of the last tick, live until `now_s`, and return what it said meanwhile."""
+        for message in self.endpoint.receive(wire_in[:BYTES_A_TICK]):
+            self._receive(message)
+        self.autopilot.advance(now_s)
+        self._speak()
+        for message_id in self.streams.due(self.autopilot.now_s):
+            report = BUILDERS[message_id](self.autopilot)
+            if report is not None:
+                self.endpoint.send(report)
+        return self.endpoint.take()
+
+    @property
+    def truth(self) -> VehicleTruth:
+        """Where it really is."""
+        frame = self.autopilot.airframe
+        roll, pitch = frame.attitude_rad
+        return VehicleTruth(
+            position_ned_m=(frame.north_m, frame.east_m, frame.down_m),
+            velocity_ned_m_s=(frame.north_m_s, frame.east_m_s, frame.down_m_s),
+            roll_rad=roll,
+            pitch_rad=pitch,
+            yaw_rad=frame.yaw_rad,
+            on_ground=frame.on_ground,
+            armed=self.autopilot.armed,
+        )
+
+    @property
+    def mode_name(self) -> str:
+        return self.autopilot.mode.name
+
+    def _receive(self, message: Any) -> None:
+        """Handle what is for this system or for everybody; the component does not matter, as on a real ArduCopter."""
+        handler = self._handlers.get(message.get_msgId())
+        if handler is None or getattr(message, "target_system", 0) not in (0, self.endpoint.system_id):
+            return
+        handler(message)
+        self._speak()
+
+    def _speak(self) -> None:
+        """Send the texts that wait, home if it is new, and a heartbeat when mode or arming changed."""
+        pilot, send = self.autopilot, self.endpoint.send
+        for severity, text in pilot.texts:
+            send(dialect.MAVLink_statustext_message(severity, text.encode()[:TEXT_BYTES]))
+        pilot.texts.clear()
+        if pilot.home_news:
+            pilot.home_news = False
+            send(BUILDERS[ORIGIN_ID](pilot))
+            send(BUILDERS[HOME_ID](pilot))
+        if pilot.announce:
+            pilot.announce = False
+            send(BUILDERS[HEARTBEAT_ID](pilot))
+
+    def _command(self, message: Any, params: tuple[float, ...]) -> None:
+        replies: list[Any] = []
+        request = Request(pilot=self.autopilot, streams=self.streams, params=params, replies=replies)
+        self._acknowledge(message, message.command, int(run(message.command, request)))
+        for reply in replies:
+            self.endpoint.send(reply)
+
+    def _acknowledge(self, message: Any, command: int, result: int) -> None:
+        self.endpoint.send(
+            dialect.MAVLink_command_ack_message(
+                command, result, 0, 0, message.get_srcSystem(), message.get_srcComponent()
+            )
+        )
+
+    def _on_command_long(self, message: Any) -> None:
+        p = message
+        self._command(p, (p.param1, p.param2, p.param3, p.param4, p.param5, p.param6, p.param7))
+
+    def _on_command_int(self, message: Any) -> None:
+        p = message
+        self._command(p, (p.param1, p.param2, p.param3, p.param4, float(p.x), float(p.y), p.z))
+
+    def _on_set_mode(self, message: Any) -> None:
+        result = set_mode(self.autopilot, message.base_mode, message.custom_mode)
+        self._acknowledge(message, SET_MODE_ID, int(result))
+
+    def _on_heartbeat(self, message: Any) -> None:
+        if message.get_srcSystem() == self.autopilot.parameters["SYSID_MYGCS"]:
+            self.autopilot.hear_gcs()
+
+    def _on_local_target(self, message: Any) -> None:
+        truth = self.autopilot.airframe
+        position = (truth.north_m, truth.east_m, truth.down_m)
+        setpoint = local_setpoint(message, position_ned_m=position, yaw_rad=truth.yaw_rad)
+        self.autopilot.guidance.follow(setpoint, self.autopilot.now_s)
+
+    def _on_global_target(self, message: Any) -> None:
+        setpoint = global_setpoint(message, home=self.autopilot.home)
+        self.autopilot.guidance.follow(setpoint, self.autopilot.now_s)
+
+    def _on_data_stream(self, message: Any) -> None:
+        rate_hz = message.req_message_rate if message.start_stop else 0
+        period_s = 1.0 / rate_hz if rate_hz > 0 else None
+        everything = tuple(GROUPS) if message.req_stream_id == ALL_GROUPS else (message.req_stream_id,)
+        for group in everything:
+            for message_id in GROUPS.get(group, ()):
+                self.streams.set_period(message_id, period_s, self.autopilot.now_s)
+
+    def _on_param_list(self, message: Any) -> None:
+        for index in range(len(TABLE)):
+            self._send_param(index, listed=True)
+
+    def _on_param_read(self, message: Any) -> None:
+        index = INDEX.get(message.param_id, -1) if message.param_index < 0 else message.param_index
+        if 0 <= index < len(TABLE):
+            self._send_param(index, listed=True)
+        else:
+            self._no_param(message, message.param_index)
+
+    def _on_param_set(self, message: Any) -> None:
+        if message.param_id not in INDEX:
+            self._no_param(message, -1)
+            return
+        self.autopilot.set_parameter(message.param_id, message.param_value)
+        self._send_param(INDEX[message.param_id], listed=False)
+
+    def _send_param(self, index: int, *, listed: bool) -> None:
+        row = TABLE[index]
+        self.endpoint.send(
+            dialect.MAVLink_param_value_message(
+                row.name.encode(),
+                self.autopilot.parameters[row.name],
+                row.type,
+                len(TABLE),
+                index if listed else UNKNOWN_INDEX,
+            )
+        )
+
+    def _no_param(self, message: Any, index: int) -> None:
+        name = str(message.param_id).encode(errors="replace")[:16]
+        self.endpoint.send(
+            dialect.MAVLink_param_error_message(
+                message.get_srcSystem(), message.get_srcComponent(), name, index, DOES_NOT_EXIST
+            )
+        )
