@@ -216,7 +216,7 @@ class Policy(Part):
     """The policy."""
     predictor: Literal["direct", "none"] = "direct"
     """Foresees when a target is lost: `direct` is eq. 10 of the paper, `none` foresees nothing."""
-    call: Literal["predicted", "all_but_nearest"] = "predicted"
+    call: Literal["predicted", "all_but_nearest"] = "all_but_nearest"
     """Which of its targets an agent calls help for: those it expects to lose, or all but the nearest."""
     answer_gate: Literal["in_time", "always"] = "always"
     """Which calls are answered: those where capture comes before the loss, or all."""
@@ -224,7 +224,7 @@ class Policy(Part):
     """How the time to capture is estimated: the target flees straight away (eq. 13), or keeps its velocity."""
     help_margin_s: NonNegative = 40.0
     """A helper sets out this long before it must."""
-    commitment: bool = False
+    commitment: bool = True
     """Whether a helper stays with the call it has answered."""
     memory_s: NonNegative = 60.0
     """How long a lost target is remembered at its predicted place."""

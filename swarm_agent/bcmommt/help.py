@@ -52,7 +52,7 @@ def _looks_empty(t: Table, p: Params, j: int, me_x: float, me_y: float, now: flo
 def is_lost(t: Table, p: Params, j: int, now: float) -> bool:
     """Whether this agent, its last owner, still looks for target j."""
     lost_for: float = now - t.lost_at_s[j]
-    return lost_for <= p.memory_s
+    return lost_for < p.memory_s
 
 
 def is_called(t: Table, p: Params, j: int, now: float) -> bool:
