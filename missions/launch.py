@@ -96,4 +96,23 @@ def _pace(mission: Mission, options: LaunchOptions) -> Pace:
 def _recorder(flight: Flight, options: LaunchOptions) -> Recorder | None:
     if options.record is None and not options.view:
         return None
-    return None
+    try:
+        from missions.recording import Recorder, Scene
+    except ModuleNotFoundError as error:
+        raise InputError(str(error)) from error
+    mission = flight.mission
+    scene = Scene(
+        mission_name=mission.name,
+        mission_yaml=dump_mission(mission),
+        seed=mission.seed,
+        policy=mission.policy.name,
+        versions=versions((*PACKAGES, "rerun-sdk")),
+        tick_s=mission.tick_s,
+        arena=mission.arena.area,
+        n_agents=mission.agents.count,
+        n_targets=len(flight.world.places),
+        sensing_range_m=mission.agents.sensing.range_m,
+        home=mission.home.place,
+        coverage_floor=coverage_floor(mission),
+    )
+    return Recorder(options.record, scene=scene, live=options.view, lossless=isinf(options.speed))
