@@ -51,7 +51,13 @@ class Flight:
         self._duration_ticks = max(1, round(mission.duration_s / mission.tick_s))
         self._phase = Phase.PREPARE
         self._phase_began = 0
+        self._ticks = 0
         self._awaited = 0  # frames under way to the radios, due this tick
+
+    @property
+    def clock_s(self) -> float:
+        """The mission clock: seconds since power-on."""
+        return self._ticks * self.mission.tick_s
 
     @property
     def complete(self) -> bool:
@@ -65,14 +71,12 @@ class Flight:
             stop: asked every tick; once true, the swarm comes home.
         """
         observers = tuple(observers)
-        tick = 0
         while self._phase is not Phase.DONE:
-            late_s = pace.begin(tick)
-            observation = self._tick(tick, late_s)
+            observation = self._tick(self._ticks, pace.begin(self._ticks))
             for observer in observers:
                 observer.observe(observation)
-            tick += 1
-            self._turn_page(tick, observation.statuses, stop())
+            self._ticks += 1
+            self._turn_page(self._ticks, observation.statuses, stop())
 
     def _tick(self, tick: int, late_s: float) -> Observation:
         """Sense, hear, think, act, say; then everything moves from state `tick` to the next."""

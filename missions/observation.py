@@ -1,4 +1,4 @@
-"""What an observer is told of one tick: every agent's status beside the truth. Metrics and recording read nothing else."""
+"""What an observer is told of one tick: each agent's status beside the truth. Metrics and recording read only this."""
 
 from __future__ import annotations
 

@@ -64,7 +64,7 @@ def make_report(flight: Flight, metrics: Metrics, *, wall_s: float, recording: P
         "versions": versions(PACKAGES),
         "timing": {
             "wall_s": round(wall_s, 3),
-            "realtime_factor": round(duration_s / wall_s, 2) if wall_s > 0 else None,
+            "realtime_factor": round(flight.clock_s / wall_s, 2) if wall_s > 0 else None,
             "tick_late_s_max": round(metrics.tick_late_s_max, 4),
         },
     }

@@ -11,6 +11,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from msgspec import structs
+
 from comms.messages import Frame, Sighting
 from comms.status import Activity, AgentStatus, HelpCallStatus
 from swarm_agent.autopilot import Fly, Intent, Phase, Pilot, PilotConfig, PilotState, Prepare, Return
@@ -19,6 +21,7 @@ from swarm_agent.bcmommt.modes import Mode
 from swarm_agent.bcmommt.params import Params
 from swarm_agent.bcmommt.speech import answers_said, calls_said, hear, tags_said
 from swarm_agent.bcmommt.step import decide, new_mind
+from swarm_agent.news import news
 
 
 class Order(NamedTuple):
@@ -68,6 +71,7 @@ class Agent:
         self._table = new_table(config.n_targets, config.n_agents, cell_columns(p) * cell_rows(p))
         self._mind = new_mind(*config.heading)
         self._seq = 0
+        self._told: AgentStatus | None = None
         self.pilot = Pilot(config.pilot)
 
     @property
@@ -98,7 +102,13 @@ class Agent:
             intent = self._decide(now_s, order.mission_tick, state.position_m)
             frame = self._say(now_s, state.position_m, state.velocity_m_s)
         wire = pilot.act(now_s, intent)
-        return Output(frame, wire, self._status(order, pilot.state, inbox))
+        return Output(frame, wire, self._tell(self._status(order, pilot.state, inbox)))
+
+    def _tell(self, status: AgentStatus) -> AgentStatus:
+        """The status with everything to be said in words: by the autopilot, the pilot and the algorithm."""
+        events = self.pilot.take_events() + news(self._told, status)
+        self._told = status
+        return structs.replace(status, events=events) if events else status
 
     def _perceive(
         self, now_s: float, me: tuple[float, float, float], sightings: Sequence[Sighting], inbox: Sequence[Frame]
@@ -153,7 +163,6 @@ class Agent:
             helping=helping,
             mates=tuple([frame.src for frame in inbox]),
             flight_mode=state.flight_mode,
-            events=self.pilot.take_events(),
         )
 
     def _activity(self, on_duty: bool, calls: bool, state: PilotState) -> Activity:
