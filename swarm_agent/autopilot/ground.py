@@ -141,7 +141,7 @@ class Takeoff(OnTheWay):
             cockpit.say(Level.WARNING, f"not off the ground {LIFT_OFF_S:g} s after the takeoff was accepted")
         limit_s = cockpit.config.refusal_limit_s - (now_s - self._since_s)
         if self._errand is None:
-            self._errand = Errand(take_off(self._altitude_m(cockpit)), limit_s=limit_s)
+            self._errand = Errand(take_off(self.altitude_m(cockpit)), limit_s=limit_s)
         progress = self._errand.tick(cockpit, now_s)
         if progress is Progress.GIVEN_UP or limit_s <= 0.0:
             return Failed(self._errand.reason or "does not lift off", bring_down=True)
@@ -162,7 +162,7 @@ class Takeoff(OnTheWay):
             return OnLayer()
         return self
 
-    def _altitude_m(self, cockpit: Cockpit) -> float:
+    def altitude_m(self, cockpit: Cockpit) -> float:
         """The layer in the frame the flavor's NAV_TAKEOFF counts in; the vehicle stands at its home."""
         config = cockpit.config
         if cockpit.flavor.takeoff_is_amsl:
