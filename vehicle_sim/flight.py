@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 GRAVITY_M_S2 = 9.80665
 VELOCITY_GAIN_1_S = 2.0  # acceleration asked for, per m/s of velocity error
-JERK_M_S3 = 4.0
+JERK_1_S = 1.6  # jerk over the acceleration limit; in proportion, so that no airframe overshoots its speed
 VERTICAL_ACCELERATION_M_S2 = 1.0
 VERTICAL_GAIN_1_S = 3.0
 VERTICAL_JERK_M_S3 = 5.0
@@ -179,7 +179,9 @@ class Multirotor(Airframe):
             VELOCITY_GAIN_1_S * (demand.east_m_s - self.east_m_s),
             self.limits.acceleration_m_s2,
         )
-        slew_north, slew_east = _shortened(north - self._north_m_s2, east - self._east_m_s2, JERK_M_S3 * dt_s)
+        slew_north, slew_east = _shortened(
+            north - self._north_m_s2, east - self._east_m_s2, JERK_1_S * self.limits.acceleration_m_s2 * dt_s
+        )
         lean_north, lean_east = _shortened(
             self._north_m_s2 + slew_north + drag_north_m_s2,
             self._east_m_s2 + slew_east + drag_east_m_s2,
