@@ -69,9 +69,8 @@ def launch(mission: Mission, *, options: LaunchOptions) -> int:
         except TracksError as error:
             raise InputError(str(error)) from error
         observers: list[Observer] = [metrics]
-        recorder = _recorder(flight, options)
-        if recorder is not None:
-            observers.append(stack.enter_context(recorder))
+        if options.record is not None or options.view:
+            observers.append(stack.enter_context(recorder_of(flight, options)))
         bar = ProgressBar(console, duration_s=mission.duration_s, tick_s=mission.tick_s)
         observers.append(stack.enter_context(bar))
         stack.enter_context(request.listening())
@@ -93,9 +92,12 @@ def _pace(mission: Mission, options: LaunchOptions) -> Pace:
     return Lockstep() if isinf(options.speed) else RealTime(tick_s=mission.tick_s, speed=options.speed)
 
 
-def _recorder(flight: Flight, options: LaunchOptions) -> Recorder | None:
-    if options.record is None and not options.view:
-        return None
+def recorder_of(flight: Flight, options: LaunchOptions) -> Recorder:
+    """The recorder of a flight, not yet open.
+
+    Raises:
+        InputError: this installation cannot record.
+    """
     try:
         from missions.recording import Recorder, Scene
     except ModuleNotFoundError as error:
@@ -113,6 +115,7 @@ def _recorder(flight: Flight, options: LaunchOptions) -> Recorder | None:
         n_targets=len(flight.world.places),
         sensing_range_m=mission.agents.sensing.range_m,
         home=mission.home.place,
+        ceiling_m=max(mission.agents.altitude.of_agent(uid) for uid in range(mission.agents.count)),
         coverage_floor=coverage_floor(mission),
     )
     return Recorder(options.record, scene=scene, live=options.view, lossless=isinf(options.speed))
