@@ -27,7 +27,7 @@ def messages(draw: st.DrawFn, ids: st.SearchStrategy[int]) -> Any:
     for name, wire, length in zip(kind.fieldnames, kind.fieldtypes, lengths_by_name(kind), strict=True):
         if name == "target_system":
             fields.append(draw(st.sampled_from([SYSTEM, 0])))
-        elif name == "command":
+        elif name == "command" and wire == "uint16_t" and not length:
             fields.append(draw(st.sampled_from(KNOWN) | st.integers(0, 65535)))
         elif wire == "char":
             fields.append(draw(st.binary(max_size=max(1, length))))
