@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import rerun as rr
 import rerun.blueprint as rrb
 
-from missions.recording import palette, shapes
+from missions.recording import palette
+from missions.recording.eye import fitting_eye
 from missions.recording.places import GRAPH_SIZE
 from missions.recording.scene import Scene
 from missions.recording.tape import TICK_LINE, TIME_LINE
@@ -40,6 +43,7 @@ def _mission(scene: Scene) -> rrb.Container:
 
 
 def _swarm(scene: Scene) -> rrb.View:
+    position, target = fitting_eye(scene)
     return rrb.Spatial3DView(
         origin="/world",
         name="Swarm",
@@ -47,8 +51,8 @@ def _swarm(scene: Scene) -> rrb.View:
         line_grid=rrb.LineGrid3D(visible=False),
         eye_controls=rrb.EyeControls3D(
             kind=rrb.Eye3DKind.Orbital,
-            position=shapes.eye_position_m(scene.arena),
-            look_target=shapes.eye_target_m(scene.arena),
+            position=position,
+            look_target=target,
             eye_up=(0.0, 0.0, 1.0),
         ),
         overrides={"/world/agents/trail": [rrb.VisibleTimeRanges(_lately(_TRAIL_S)), rr.LineStrips3D.from_fields()]},
@@ -115,13 +119,14 @@ def _map() -> rrb.View:
     return rrb.MapView(origin="/geo", name="Map")
 
 
+def _numbers(path: str) -> rrb.components.ComponentColumnSelector:
+    return rrb.components.ComponentColumnSelector(entity_path=path, component="Scalars:scalars")
+
+
 def _raw() -> rrb.Container:
-    table = rrb.DataframeView(
-        origin="/",
-        contents=["/metrics/**", "/telemetry/**"],
-        name="Numbers",
-        query=rrb.archetypes.DataframeQuery(timeline=TICK_LINE),
-    )
-    return rrb.Horizontal(
-        rrb.TextDocumentView(origin="/mission", name="The mission"), table, column_shares=[2, 3], name="Raw"
-    )
+    vectors = ("metrics/coverage", "metrics/utilization", "metrics/net", "telemetry/altitude", "telemetry/speed")
+    select: list[Any] = [TICK_LINE, TIME_LINE, *(_numbers(f"/{path}") for path in vectors)]
+    query = rrb.archetypes.DataframeQuery(timeline=TICK_LINE, select=select)
+    numbers = rrb.DataframeView(origin="/", contents=["/metrics/**", "/telemetry/**"], name="Numbers", query=query)
+    mission = rrb.TextDocumentView(origin="/mission", name="The mission")
+    return rrb.Horizontal(mission, numbers, column_shares=[2, 3], name="Raw")

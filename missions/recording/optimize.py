@@ -35,15 +35,15 @@ def optimize(source: Path, destination: Path) -> None:
     Repairs a recording whose writer was killed, too: a torn last message is left out.
 
     Raises:
-        RuntimeError: rerun's tool is missing or refused, with what it said.
+        RuntimeError: rerun's tool is missing or refused, with the last it said.
     """
     unfinished = destination.with_name(destination.name + ".tmp")
-    command = [*rerun_command(), "rrd", "optimize", "--continue-on-error", str(source), "-o", str(unfinished)]
+    command = [*rerun_command(), "rrd", "optimize", str(source), "-o", str(unfinished)]
     try:
         subprocess.run(command, check=True, capture_output=True, text=True, timeout=_TIMEOUT_S)
         os.replace(unfinished, destination)
     except (OSError, subprocess.SubprocessError) as error:
-        said = getattr(error, "stderr", None) or str(error)
-        raise RuntimeError(f"cannot optimize {source}: {said.strip()}") from error
+        said = (getattr(error, "stderr", None) or str(error)).strip().splitlines()
+        raise RuntimeError(f"cannot optimize {source}: {said[-1]}") from error
     finally:
         unfinished.unlink(missing_ok=True)

@@ -26,6 +26,8 @@ from missions.recording.tape import Tape
 from missions.recording.targets import Targets
 
 _QUEUED_S = 5.0
+# Mission time from one flush to the next: what a killed process loses, and what a live viewer lags behind.
+_FLUSH_S, _LIVE_FLUSH_S = 1.0, 0.2
 _LAYERS = (SeenGround, Swarm, Targets, Relations, Lanes, EventLog, Metrics, Telemetry, Places)
 _log = logging.getLogger(__name__)
 
@@ -38,7 +40,7 @@ class Recorder:
     """Records a mission into a file, `F.rrd.part` while it runs and `F.rrd` once it is whole.
 
     Args:
-        path: the recording. Its folder must exist; a file of that name is replaced at the end.
+        path: the recording, in a folder that exists; a file of that name is replaced at the end. None keeps nothing.
         scene: what stands still.
         live: serve the recording on this machine as well, and start a viewer.
         lossless: wait when the recorder is behind, so that the recording is complete and repeats exactly (lockstep);
@@ -47,18 +49,17 @@ class Recorder:
     A killed process loses at most the last second: `optimize` turns its `F.rrd.part` into a proper recording.
     """
 
-    def __init__(self, path: Path | str, *, scene: Scene, live: bool = False, lossless: bool = True) -> None:
-        self.path = Path(path)
+    def __init__(self, path: Path | str | None, *, scene: Scene, live: bool = False, lossless: bool = True) -> None:
+        self.path = None if path is None else Path(path)
         self.dropped = 0
         self._scene = scene
         self._live = live
         self._lossless = lossless
-        self._part = self.path.with_name(self.path.name + ".part")
+        self._part = None if self.path is None else self.path.with_name(self.path.name + ".part")
         self._tape = Tape(scene=scene)
         self._queue: queue.Queue[Observation | None] = queue.Queue(max(2, round(_QUEUED_S * scene.ticks_per_s)))
         self._thread = threading.Thread(target=self._run, name="recorder", daemon=True)
         self._error: BaseException | None = None
-        self._failed = threading.Event()
 
     @property
     def live_url(self) -> str | None:
@@ -72,19 +73,19 @@ class Recorder:
             RecordingError: the file cannot be written.
         """
         try:
-            self._tape.open_file(self._part, blueprint(self._scene, live=False))
+            if self._part is not None:
+                self._tape.open_file(self._part, blueprint(self._scene, live=False))
             if self._live:
                 self._tape.open_live(blueprint(self._scene, live=True))
             set_stage(self._tape, self._scene)
         except Exception as error:
+            self._tape.close()
             raise RecordingError(f"cannot record to {self._part}: {error}") from error
         self._thread.start()
         return self
 
     def observe(self, observation: Observation) -> None:
         """Record one tick. Costs the caller a queue entry; never raises on account of the recording."""
-        if self._failed.is_set():
-            return
         if self._lossless:
             self._queue.put(observation)
             return
@@ -116,9 +117,10 @@ class Recorder:
         except Exception as error:
             self._error = self._error or error
         if self._error is not None:
-            raise RecordingError(
-                f"recording failed, what there is lies in {self._part}: {self._error}"
-            ) from self._error
+            remains = "" if self._part is None else f", what there is lies in {self._part}"
+            raise RecordingError(f"recording failed{remains}: {self._error}") from self._error
+        if self._part is None or self.path is None:
+            return
         try:
             optimize(self._part, self.path)
             self._part.unlink()
@@ -131,14 +133,13 @@ class Recorder:
             self._record()
         except BaseException as error:
             self._error = error
-            self._failed.set()
             # The mission goes on: whoever waits for room in the queue gets it.
             while self._queue.get() is not None:
                 pass
 
     def _record(self) -> None:
         layers: list[Layer] = [kind(self._scene) for kind in _LAYERS]
-        ticks = 1 if self._live else self._scene.ticks_per_s
+        ticks = round(self._scene.ticks_per_s * (_LIVE_FLUSH_S if self._live else _FLUSH_S)) or 1
         waiting: list[Observation] = []
         while (observation := self._queue.get()) is not None:
             waiting.append(observation)

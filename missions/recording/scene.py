@@ -23,6 +23,7 @@ class Scene:
         tick_s: mission time between two observations.
         sensing_range_m: radius of every agent's sensing disc on the ground.
         home: where ENU (0, 0, 0) is on the globe.
+        ceiling_m: how high agents fly, so that the first view shows all of them.
         coverage_floor: coverage of agents placed at random and standing still, drawn as a dim line; None when unknown.
     """
 
@@ -37,6 +38,7 @@ class Scene:
     n_targets: int
     sensing_range_m: float
     home: GeoPoint
+    ceiling_m: float = 0.0
     coverage_floor: float | None = None
 
     @property

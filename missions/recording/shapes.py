@@ -95,14 +95,3 @@ def compass(headings_rad: Floats) -> Floats:
     """Unit vectors (..., 3) east, north, up along headings clockwise from north, in steps of 3 degrees (they pack)."""
     steps = np.round(headings_rad * (60 / pi)) * (pi / 60)
     return np.stack((np.sin(steps), np.cos(steps), np.zeros_like(steps)), axis=-1).astype(np.float32)
-
-
-def eye_position_m(arena: Arena) -> tuple[float, float, float]:
-    """Where a camera south of the arena sees all of it, looking down at about 50 degrees."""
-    size = max(arena.half_y_m, 0.72 * arena.half_x_m)
-    return (0.0, -1.35 * size, 1.3 * size)
-
-
-def eye_target_m(arena: Arena) -> tuple[float, float, float]:
-    """Where that camera looks: south of the middle, since what is near looks larger."""
-    return (0.0, -0.22 * arena.half_y_m, 0.0)

@@ -203,4 +203,5 @@ def _set_properties(tape: Tape, scene: Scene) -> None:
 def _about(scene: Scene) -> str:
     facts = {"policy": scene.policy, "seed": str(scene.seed), **scene.versions}
     table = "\n".join(f"| {name} | `{value}` |" for name, value in facts.items())
-    return f"# {scene.mission_name}\n\n| | |\n|---|---|\n{table}\n\n```yaml\n{scene.mission_yaml.rstrip()}\n```\n"
+    yaml = scene.mission_yaml.rstrip()
+    return f"# {scene.mission_name}\n\n| setting | value |\n|---|---|\n{table}\n\n```yaml\n{yaml}\n```\n"

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 import numpy as np
 import rerun as rr
 
-from comms.status import Activity, Event, Level
+from comms.status import Activity, AgentStatus, Event, Level
 from missions.observation import Observation
 from missions.recording import palette
 from missions.recording.block import Block
 from missions.recording.columns import Rows
+from missions.recording.relations import callers_for
 from missions.recording.scene import Scene
 
 _LEVELS = {
@@ -19,6 +21,14 @@ _LEVELS = {
     Level.WARNING: rr.TextLogLevel.WARN,
     Level.ERROR: rr.TextLogLevel.ERROR,
 }
+
+
+class _Line(NamedTuple):
+    """One line of the log: when, what, and in which color."""
+
+    observation: Observation
+    event: Event
+    color: int
 
 
 class Lanes:
@@ -42,31 +52,43 @@ class Lanes:
 
 
 class EventLog:
-    """Every event that an agent or the mission had to report, a log for each of them."""
+    """What agents and the mission had to report, and each call for help and each answer, a log for each speaker."""
 
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
+        self._before = [AgentStatus(uid=uid, activity=Activity.PREPARING) for uid in range(scene.n_agents)]
 
     def rows(self, block: Block) -> Iterator[Rows]:
         """The events."""
-        mission = [
-            (seen, event, palette.LEVEL_COLORS[Level.INFO]) for seen in block.observations for event in seen.events
-        ]
-        yield self._log("mission", mission)
-        for uid, name in enumerate(self._scene.agent_names):
-            said = [
-                (seen, event, palette.ACTIVITY_COLORS[seen.statuses[uid].activity])
-                for seen in block.observations
-                for event in seen.statuses[uid].events
-            ]
-            yield self._log(name, said)
+        said: dict[str, list[_Line]] = {name: [] for name in ("mission", *self._scene.agent_names)}
+        for seen in block.observations:
+            said["mission"] += [_Line(seen, event, palette.LEVEL_COLORS[event.level]) for event in seen.events]
+            for name, status in zip(self._scene.agent_names, seen.statuses, strict=True):
+                before, self._before[status.uid] = self._before[status.uid], status
+                calm = palette.ACTIVITY_COLORS[status.activity]
+                for event in (*status.events, *self._calls(before, status), *self._answers(before, status, seen)):
+                    color = calm if event.level is Level.INFO else palette.LEVEL_COLORS[event.level]
+                    said[name].append(_Line(seen, event, color))
+        for name, lines in said.items():
+            yield self._log(name, lines)
 
-    def _log(self, name: str, said: Sequence[tuple[Observation, Event, int]]) -> Rows:
-        """INFO in the speaker's color, anything worse in the color of its level."""
-        calm = [color if event.level is Level.INFO else palette.LEVEL_COLORS[event.level] for _, event, color in said]
+    def _calls(self, before: AgentStatus, now: AgentStatus) -> Iterator[Event]:
+        known = {call.target for call in before.calls}
+        for call in now.calls:
+            if call.target not in known:
+                target = self._scene.target_names[call.target]
+                yield Event(Level.WARNING, f"calls for help: {target} will be lost in {call.loss_in_s:.1f} s")
+
+    def _answers(self, before: AgentStatus, now: AgentStatus, seen: Observation) -> Iterator[Event]:
+        if now.helping is not None and now.helping != before.helping:
+            callers = callers_for(seen, now.helping)
+            whom = f"help {self._scene.agent_names[callers[0]]} with" if callers else "look for"
+            yield Event(Level.INFO, f"flies to {whom} {self._scene.target_names[now.helping]}")
+
+    def _log(self, name: str, lines: Sequence[_Line]) -> Rows:
         columns = rr.TextLog.columns(
-            text=[f"{name}  {event.text}" for _, event, _ in said],
-            level=[_LEVELS[event.level] for _, event, _ in said],
-            color=np.array(calm, dtype=np.uint32),
+            text=[f"{name}  {line.event.text}" for line in lines],
+            level=[_LEVELS[line.event.level] for line in lines],
+            color=np.array([line.color for line in lines], dtype=np.uint32),
         )
-        return Rows(f"/log/{name}", Block(self._scene, [seen for seen, _, _ in said]), columns)
+        return Rows(f"/log/{name}", Block(self._scene, [line.observation for line in lines]), columns)

@@ -1,4 +1,4 @@
-"""The agents in 3D: dart and name, stem down to the ground, sensing disc, trail."""
+"""The agents in 3D: arrow and name, stem down to the ground, sensing disc, trail."""
 
 from __future__ import annotations
 

@@ -32,6 +32,7 @@ def toy_scene(*, arena: Arena | None = None, n_agents: int = 10, n_targets: int 
         n_targets=n_targets,
         sensing_range_m=0.13 * 2 * max(arena.half_x_m, arena.half_y_m),
         home=GeoPoint(47.3769, 8.5417, 408.0),
+        ceiling_m=0.16 * min(arena.half_x_m, arena.half_y_m),
         coverage_floor=0.41,
     )
 
@@ -76,6 +77,7 @@ class _Toy:
     activities: list[Activity] = field(default_factory=list)
     coverages: list[float] = field(default_factory=list)
     sent: int = 0
+    delivered: int = 0
 
     @classmethod
     def start(cls, scene: Scene) -> _Toy:
@@ -108,6 +110,7 @@ class _Toy:
         seen = [self._is_seen(target) for target in range(self.scene.n_targets)]
         links = self._links()
         self.sent += self.scene.n_agents
+        self.delivered += 2 * len(links)
         if moving:
             self.coverages.append(sum(seen) / max(1, len(seen)))
         mean = sum(self.coverages) / len(self.coverages) if moving else None
@@ -128,7 +131,7 @@ class _Toy:
             utilization=mean,
             tick_late_s=0.001 * draw(self.scene.seed, tick, 0, _TURN),
             radio_sent=self.sent,
-            radio_delivered=2 * self.sent * len(links) // max(1, self.scene.n_agents),
+            radio_delivered=self.delivered,
             events=(Event(Level.INFO, "mission starts"),) if tick == PREPARATION else (),
         )
 
@@ -167,7 +170,7 @@ class _Toy:
         if self._is_lost(uid, tick):
             activity, tags, calls, helping = Activity.LOST, [], (), None
         self._steer(uid, tags, helping)
-        events = self._events(uid, activity, calls, helping)
+        events = self._events(uid, activity)
         self.activities[uid] = activity
         agent = self.agents[uid]
         return AgentStatus(
@@ -197,17 +200,9 @@ class _Toy:
             (sum(x for x, _ in places) / len(places), sum(y for _, y in places) / len(places)) if places else None
         )
 
-    def _events(
-        self, uid: int, activity: Activity, calls: tuple[HelpCallStatus, ...], helping: int | None
-    ) -> tuple[Event, ...]:
+    def _events(self, uid: int, activity: Activity) -> tuple[Event, ...]:
         if activity is self.activities[uid]:
             return ()
-        if activity is Activity.CALLING:
-            return (
-                Event(Level.WARNING, f"calls for help with T{calls[0].target}, lost in {calls[0].loss_in_s:.0f} s"),
-            )
-        if activity is Activity.HELPING:
-            return (Event(Level.INFO, f"flies to T{helping}"),)
         if activity is Activity.LOST:
             return (Event(Level.ERROR, "not heard for 3 s"),)
         return ()
