@@ -103,7 +103,7 @@ class Arm(OnTheWay):
 
 
 class Takeoff(OnTheWay):
-    """Climb to the layer. The autopilot does it; setpoints before the end of its climb would break it off.
+    """Climb to the layer. The autopilot does it alone: a recorded ArduCopter ignored setpoints until its climb ended.
 
     Args:
         since_s: when arming began: the limit on refusals counts from there.
