@@ -17,11 +17,6 @@ from missions.recording.scene import Scene
 _TRACK_ALPHA = 150
 
 
-def callers_for(seen: Observation, target: int) -> list[int]:
-    """The agents that call for help with this target now."""
-    return [status.uid for status in seen.statuses if any(call.target == target for call in status.calls)]
-
-
 class Relations:
     """Draws a line from each agent to its tags and its mates, and an arrow from each helper to where it is needed."""
 
@@ -72,5 +67,5 @@ class Relations:
 
     def _label(self, seen: Observation, helper: int, target: int) -> str:
         agents, targets = self._scene.agent_names, self._scene.target_names
-        callers = callers_for(seen, target)
+        callers = [s.uid for s in seen.statuses if any(call.target == target for call in s.calls)]
         return f"{agents[helper]} helps {agents[callers[0]]}" if callers else f"{agents[helper]} to {targets[target]}"

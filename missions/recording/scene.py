@@ -53,20 +53,15 @@ class Scene:
 
     @property
     def agent_names(self) -> list[str]:
-        """ "A0", "A1", ...: padded with zeros so that they sort."""
-        return _names("A", self.n_agents)
+        """ "A0", "A1", ...: as agents call each other; the viewer sorts A2 before A10."""
+        return [f"A{uid}" for uid in range(self.n_agents)]
 
     @property
     def target_names(self) -> list[str]:
-        """ "T0", "T1", ...: padded with zeros so that they sort."""
-        return _names("T", self.n_targets)
+        """ "T0", "T1", ..."""
+        return [f"T{target}" for target in range(self.n_targets)]
 
     @property
     def recording_id(self) -> str:
         """A UUID that depends on nothing but the scene, so that the same mission records the same."""
         return str(uuid.uuid5(_NAMESPACE, repr(asdict(self))))
-
-
-def _names(letter: str, count: int) -> list[str]:
-    width = len(str(max(count - 1, 0)))
-    return [f"{letter}{number:0{width}d}" for number in range(count)]

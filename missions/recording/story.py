@@ -8,12 +8,11 @@ from typing import NamedTuple
 import numpy as np
 import rerun as rr
 
-from comms.status import Activity, AgentStatus, Event, Level
+from comms.status import Activity, Event, Level
 from missions.observation import Observation
 from missions.recording import palette
 from missions.recording.block import Block
 from missions.recording.columns import Rows
-from missions.recording.relations import callers_for
 from missions.recording.scene import Scene
 
 _LEVELS = {
@@ -52,11 +51,10 @@ class Lanes:
 
 
 class EventLog:
-    """What agents and the mission had to report, and each call for help and each answer, a log for each speaker."""
+    """What agents and the mission had to report, a log for each speaker."""
 
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
-        self._before = [AgentStatus(uid=uid, activity=Activity.PREPARING) for uid in range(scene.n_agents)]
 
     def rows(self, block: Block) -> Iterator[Rows]:
         """The events."""
@@ -64,26 +62,12 @@ class EventLog:
         for seen in block.observations:
             said["mission"] += [_Line(seen, event, palette.LEVEL_COLORS[event.level]) for event in seen.events]
             for name, status in zip(self._scene.agent_names, seen.statuses, strict=True):
-                before, self._before[status.uid] = self._before[status.uid], status
                 calm = palette.ACTIVITY_COLORS[status.activity]
-                for event in (*status.events, *self._calls(before, status), *self._answers(before, status, seen)):
+                for event in status.events:
                     color = calm if event.level is Level.INFO else palette.LEVEL_COLORS[event.level]
                     said[name].append(_Line(seen, event, color))
         for name, lines in said.items():
             yield self._log(name, lines)
-
-    def _calls(self, before: AgentStatus, now: AgentStatus) -> Iterator[Event]:
-        known = {call.target for call in before.calls}
-        for call in now.calls:
-            if call.target not in known:
-                target = self._scene.target_names[call.target]
-                yield Event(Level.WARNING, f"calls for help: {target} will be lost in {call.loss_in_s:.1f} s")
-
-    def _answers(self, before: AgentStatus, now: AgentStatus, seen: Observation) -> Iterator[Event]:
-        if now.helping is not None and now.helping != before.helping:
-            callers = callers_for(seen, now.helping)
-            whom = f"help {self._scene.agent_names[callers[0]]} with" if callers else "look for"
-            yield Event(Level.INFO, f"flies to {whom} {self._scene.target_names[now.helping]}")
 
     def _log(self, name: str, lines: Sequence[_Line]) -> Rows:
         columns = rr.TextLog.columns(

@@ -199,9 +199,7 @@ class TestRepeating:
 
 
 class TestStory:
-    """Lines that the log adds to what the agents say themselves."""
-
-    def test_a_call_and_its_answer_are_told_once(self, scene: Scene, tmp_path: Path) -> None:
+    def test_help_is_labeled_with_who_called(self, scene: Scene, tmp_path: Path) -> None:
         quiet = next(iter(toy_observations(scene, ticks=1)))
         idle = [AgentStatus(uid=uid, activity=Activity.EXPLORE) for uid in range(10)]
 
@@ -216,8 +214,6 @@ class TestStory:
         helping = {"activity": Activity.HELPING, "helping": 4}
         ticks = [at(0), at(1, a2=calling), at(2, a2=calling, a7=helping), at(3, a2=calling, a7=helping), at(4)]
         path = _record(tmp_path / "story.rrd", scene, ticks)
-        assert _column(path, "/log/A2", "TextLog:text") == {1: ["A2  calls for help: T4 will be lost in 2.5 s"]}
-        assert _column(path, "/log/A7", "TextLog:text") == {2: ["A7  flies to help A2 with T4"]}
         assert _column(path, "/world/help", "Arrows3D:labels") == {0: [], 2: ["A7 helps A2"], 4: []}
 
     def test_warnings_stand_out(self, scene: Scene, tmp_path: Path) -> None:

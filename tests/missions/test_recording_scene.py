@@ -74,16 +74,6 @@ def test_the_camera_has_the_whole_arena_in_the_picture(arena: Arena, ceiling_m: 
         assert np.abs(seen @ right / depth).max() < 1.8 * tan(pi * 55 / 360)
 
 
-def test_names_sort_as_they_are_numbered() -> None:
-    few, many = toy_scene(n_agents=10, n_targets=3), toy_scene(n_agents=101, n_targets=0)
-    assert few.agent_names[0] == "A0"
-    assert few.agent_names[-1] == "A9"
-    assert few.target_names == ["T0", "T1", "T2"]
-    assert many.agent_names[7] == "A007"
-    assert many.agent_names == sorted(many.agent_names)
-    assert many.target_names == []
-
-
 def test_equal_scenes_share_an_id_and_others_do_not() -> None:
     scene = toy_scene(seed=1)
     assert scene.recording_id == toy_scene(seed=1).recording_id
