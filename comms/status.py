@@ -15,7 +15,7 @@ class Activity(StrEnum):
     PREPARING = "preparing"  # connect, preflight, takeoff, waiting for the others
     EXPLORE = "explore"
     FOLLOW = "follow"
-    CALLING = "calling for help"  # following, with a help call out
+    CALLING = "calling for help"  # following, with an urgent help call out
     HELPING = "helping"
     RETURNING = "returning"  # return, land, disarm
     LANDED = "landed"
@@ -38,10 +38,14 @@ class Event(msgspec.Struct, frozen=True):
 
 
 class HelpCallStatus(msgspec.Struct, frozen=True):
-    """A help call that is out: for which target, and in how many seconds it is expected to be lost."""
+    """A help call that is out: for which target, and in how many seconds it is expected to be lost.
+
+    Not urgent is a call for a target whose loss is not foreseen: it is on offer to whoever is free.
+    """
 
     target: int
     loss_in_s: float
+    urgent: bool = True
 
 
 class AgentStatus(msgspec.Struct, frozen=True, kw_only=True):

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from itertools import chain
 from math import atan2
 
 from comms.air import Air, LinkModel
+from comms.arena import Arena, edge_distance_m
 from comms.chance import PLACE_AGENT, PLACE_TARGET
 from comms.frames import geo_from_enu
 from comms.keys import Keys
 from comms.session import Bus
 from missions.mission import Mission, TrackTargets
+from missions.problems import InputError
 from missions.rules import start_places
 from swarm_agent.agent import Agent, AgentConfig
 from swarm_agent.autopilot import PilotConfig
@@ -19,7 +22,7 @@ from vehicle_sim.battery import Battery
 from vehicle_sim.flight import FlightLimits
 from vehicle_sim.herd import Evasive, Herd, Random, Replay, Static
 from vehicle_sim.placement import heading, scatter
-from vehicle_sim.tracks import read_tracks
+from vehicle_sim.tracks import Tracks, read_tracks
 from vehicle_sim.vehicle import VehicleConfig
 from vehicle_sim.wind import Wind
 from vehicle_sim.world import World
@@ -135,6 +138,7 @@ def world(mission: Mission) -> World:
 
     Raises:
         TracksError: a file of tracks that cannot be read.
+        InputError: tracks of another place: not one fix lies in the arena.
     """
     return World(herd=_herd(mission), sensing_range_m=mission.agents.sensing.range_m)
 
@@ -155,7 +159,8 @@ def air(mission: Mission, bus: Bus) -> Air:
 def _herd(mission: Mission) -> Herd:
     arena, targets, tick_s, seed = mission.arena.area, mission.targets, mission.tick_s, mission.seed
     if isinstance(targets, TrackTargets):
-        tracks = read_tracks(targets.file, max_gap_s=targets.max_gap_s)
+        tracks = read_tracks(targets.file, home=mission.home.place, max_gap_s=targets.max_gap_s)
+        _check_place(tracks, targets, arena)
         return Replay(arena=arena, tracks=tracks, tick_s=tick_s, start_s=targets.start_s)
     places = scatter(
         count=targets.count, radius_m=targets.deployment.radius_m, spacing_m=0.0, seed=seed, purpose=PLACE_TARGET
@@ -176,3 +181,14 @@ def _herd(mission: Mission) -> Herd:
         speed_m_s=targets.speed_m_s,
         notice_range_m=mission.target_sensing_range_m,
     )
+
+
+def _check_place(tracks: Tracks, targets: TrackTargets, arena: Arena) -> None:
+    fixes = zip(chain(*tracks.x_m), chain(*tracks.y_m), strict=True)
+    if any(edge_distance_m(arena, x, y) >= 0.0 for x, y in fixes):
+        return
+    origin = read_tracks(targets.file, max_gap_s=targets.max_gap_s).origin
+    hint = "an arena that holds its tracks"
+    if origin is not None:
+        hint = f"home: {{latitude_deg: {origin.latitude_deg:.7f}, longitude_deg: {origin.longitude_deg:.7f}}}"
+    raise InputError(f"{targets.file}: targets.file: got tracks that are nowhere inside the arena; allowed: {hint}")

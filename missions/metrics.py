@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from math import inf
 
 from comms.status import Activity, AgentStatus, Level
 from missions.observation import Observation
 
 MAX_FAULTS = 1000
+# A call that pauses for less than this is the same call: which of two tags is the nearest changes from tick to tick.
+CALL_PAUSE_S = 1.0
 
 
 @dataclass(slots=True)
@@ -22,7 +25,7 @@ class EventCount:
 
 @dataclass(slots=True)
 class HelpCount:
-    """Episodes of help. A call is an episode of one agent calling for one target, however often it repeats.
+    """Episodes of help. A call is an episode of one agent calling for one target, however often it is renewed.
 
     answered: an agent set out to help. captured: it came to own the target. taken_over: it left the target to another
     helper.
@@ -53,6 +56,7 @@ class Metrics:
     tick_late_s_max: float = 0.0
     _before: tuple[AgentStatus, ...] = ()
     _on_duty_before: bool = False
+    _called_at_s: dict[tuple[int, int], float] = field(default_factory=dict)  # by (agent, target)
 
     def observe(self, observation: Observation) -> None:
         """Count one tick."""
@@ -63,7 +67,16 @@ class Metrics:
             before = self._before if self._on_duty_before else ()
             _count_tags(self.events, _owners(before), _owners(observation.statuses))
             _count_help(self.help, before, observation.statuses)
+            self._count_calls(observation)
         self._before, self._on_duty_before = observation.statuses, on_duty
+
+    def _count_calls(self, observation: Observation) -> None:
+        for status in observation.statuses:
+            for call in status.calls:
+                key = (status.uid, call.target)
+                if observation.time_s - self._called_at_s.get(key, -inf) > CALL_PAUSE_S:
+                    self.help.calls += 1
+                self._called_at_s[key] = observation.time_s
 
     def _count_faults(self, observation: Observation) -> None:
         was_lost = {status.uid for status in self._before if status.activity is Activity.LOST}
@@ -99,8 +112,6 @@ def _count_help(count: HelpCount, before: Sequence[AgentStatus], now: Sequence[A
     helped = {status.helping for status in now}
     for index, status in enumerate(now):
         old = before[index] if before else None
-        called = {call.target for call in old.calls} if old else set()
-        count.calls += sum(1 for call in status.calls if call.target not in called)
         was_helping = old.helping if old else None
         if status.helping is not None and status.helping != was_helping:
             count.answered += 1

@@ -146,26 +146,36 @@ class Agent:
 
     def _status(self, order: Order, state: PilotState, inbox: Sequence[Frame]) -> AgentStatus:
         on_duty = order.mission_tick is not None and not order.come_home
-        table, horizon_s = self._table, self._config.params.horizon_s
-        calls = [j for j, calling in enumerate(table.calling) if calling] if on_duty else []
+        table = self._table
+        calls = self._calls() if on_duty else ()
         helping = self._mind.helping if on_duty and self._mind.helping != NOBODY else None
         return AgentStatus(
             uid=self._config.uid,
-            activity=self._activity(on_duty, bool(calls), state),
+            activity=self._activity(on_duty, any(call.urgent for call in calls), state),
             position_m=state.position_m,
             velocity_m_s=state.velocity_m_s,
             heading_rad=state.heading_rad,
             battery=state.battery,
             tags=tuple([j for j, mine in enumerate(table.tagged) if mine]) if on_duty else (),
-            calls=tuple(
-                [HelpCallStatus(j, min(table.loss_in_s[j], horizon_s) if table.tagged[j] else 0.0) for j in calls]
-            ),
+            calls=calls,
             helping=helping,
             mates=tuple([frame.src for frame in inbox]),
             flight_mode=state.flight_mode,
         )
 
-    def _activity(self, on_duty: bool, calls: bool, state: PilotState) -> Activity:
+    def _calls(self) -> tuple[HelpCallStatus, ...]:
+        table, horizon_s = self._table, self._config.params.horizon_s
+        return tuple(
+            [
+                HelpCallStatus(j, min(table.loss_in_s[j], horizon_s), table.loss_in_s[j] <= horizon_s)
+                if table.tagged[j]
+                else HelpCallStatus(j, 0.0)
+                for j, calling in enumerate(table.calling)
+                if calling
+            ]
+        )
+
+    def _activity(self, on_duty: bool, calling: bool, state: PilotState) -> Activity:
         if state.phase is Phase.DONE:
             return Activity.LANDED
         if state.phase is Phase.FAILED or state.link_lost:
@@ -175,5 +185,5 @@ class Agent:
         if not on_duty:
             return Activity.PREPARING
         if self._mind.mode is Mode.FOLLOW:
-            return Activity.CALLING if calls else Activity.FOLLOW
+            return Activity.CALLING if calling else Activity.FOLLOW
         return Activity.HELPING if self._mind.mode is Mode.HELP else Activity.EXPLORE

@@ -14,7 +14,7 @@ def news(before: AgentStatus | None, now: AgentStatus) -> tuple[Event, ...]:
         return ()
     events = []
     lost = {call.target for call in now.calls if call.target not in now.tags}
-    called = {call.target for call in before.calls}
+    called = {call.target for call in before.calls if call.urgent}
     for target in now.tags:
         if target not in before.tags:
             verb = "captures" if target == before.helping else "follows"
@@ -25,7 +25,7 @@ def news(before: AgentStatus | None, now: AgentStatus) -> tuple[Event, ...]:
         elif target not in now.tags:
             events.append(Event(Level.INFO, f"leaves T{target} to a mate"))
     for call in now.calls:
-        if call.target not in called and call.target not in lost:
+        if call.urgent and call.target not in called and call.target not in lost:
             events.append(Event(Level.WARNING, f"calls for help: T{call.target}, in {call.loss_in_s:.0f} s"))
     if now.helping is not None and now.helping != before.helping:
         events.append(Event(Level.INFO, f"goes to help with T{now.helping}"))

@@ -205,6 +205,17 @@ def test_unreadable_tracks_are_bad_input(tmp_path: Path, capsys: pytest.CaptureF
     assert "Traceback" not in error
 
 
+def test_tracks_of_another_place_tell_where_home_must_be(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    tracks = tmp_path / "far.csv"
+    rows = "".join(f"2020-01-01 00:00:{s:02d}.000,10.5,45.25,a\n" for s in range(5))
+    tracks.write_text("timestamp,location-long,location-lat,individual-local-identifier\n" + rows)
+    assert main(["launch", "tracks", "--set", f"targets.file={tracks}"]) == 2
+    assert capsys.readouterr().err == (
+        f"{tracks}: targets.file: got tracks that are nowhere inside the arena; "
+        "allowed: home: {latitude_deg: 45.2500000, longitude_deg: 10.5000000}\n"
+    )
+
+
 def test_ctrl_c_lands_the_swarm_and_still_reports(tmp_path: Path) -> None:
     """A real process, a real signal: sent once the recording has begun."""
     pytest.importorskip("rerun")

@@ -74,7 +74,9 @@ def test_help_episodes() -> None:
         (status(0, 1, 2, calls=(2,)), status(1, helping=2), status(2)),
         (status(0, 1, 2, calls=(2,)), status(1), status(2, helping=2)),  # taken over
         (status(0, 1), status(1), status(2, 2)),  # captured
-        (status(0, 1, 2, calls=(2,)), status(1), status(2)),  # a new call
+        (status(0, 1, 2, calls=(2,)), status(1), status(2)),  # the old call, after a pause of 0.2 s
+        *[(status(0, 1, 2), status(1), status(2))] * 10,
+        (status(0, 1, 2, calls=(2,)), status(1), status(2)),  # a new one
     )
     assert (metrics.help.calls, metrics.help.answered) == (2, 2)
     assert (metrics.help.captured, metrics.help.taken_over) == (1, 1)

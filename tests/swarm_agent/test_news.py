@@ -33,5 +33,8 @@ def test_targets_won_left_and_lost() -> None:
 def test_help_called_and_given() -> None:
     call = (HelpCallStatus(3, 8.4),)
     assert texts(status(tags=(2, 3)), status(tags=(2, 3), calls=call)) == ["calls for help: T3, in 8 s"]
+    offer = (HelpCallStatus(3, 20.0, urgent=False),)
+    assert texts(status(tags=(2, 3)), status(tags=(2, 3), calls=offer)) == []
+    assert texts(status(tags=(2, 3), calls=offer), status(tags=(2, 3), calls=call)) == ["calls for help: T3, in 8 s"]
     assert texts(status(), status(helping=3)) == ["goes to help with T3"]
     assert texts(status(helping=2), status(helping=3)) == ["goes to help with T3"]
