@@ -1,6 +1,6 @@
 """The area of interest S, which everybody in a mission knows: a disc or a rectangle about the local origin.
 
-Plain scalar functions of (arena, x, y), inside what numba compiles; metres, the mission's ENU plane.
+Plain scalar functions of (arena, x, y), inside what numba compiles; meters, the mission's ENU plane.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ class Shape(IntEnum):
 
 
 class Arena(NamedTuple):
-    """The area of interest, centred on the origin.
+    """The area of interest, centered on the origin.
 
     Attributes:
         shape: a `Shape` value.
@@ -67,7 +67,7 @@ def clamped(arena: Arena, x: float, y: float) -> tuple[float, float]:
 
 
 def outward_normal(arena: Arena, x: float, y: float) -> tuple[float, float]:
-    """The unit vector out of the arena across the edge nearest to (x, y); (1, 0) at the very centre."""
+    """The unit vector out of the arena across the edge nearest to (x, y); (1, 0) at the very center."""
     if arena.shape == Shape.DISC:
         r = sqrt(x * x + y * y)
         if r < 1e-9:

@@ -16,16 +16,16 @@ MAX_FRAME_BYTES = 4096  # nobody needs more; longer input is not looked at
 MAX_TARGETS = 65_536
 
 _Id = Annotated[int, msgspec.Meta(ge=0, lt=MAX_TARGETS)]
-_Millimetres = Annotated[int, msgspec.Meta(ge=-100_000_000, le=100_000_000)]  # within 100 km of home
-_MillimetresPerSecond = Annotated[int, msgspec.Meta(ge=-500_000, le=500_000)]  # up to 500 m/s
+_Millimeters = Annotated[int, msgspec.Meta(ge=-100_000_000, le=100_000_000)]  # within 100 km of home
+_MillimetersPerSecond = Annotated[int, msgspec.Meta(ge=-500_000, le=500_000)]  # up to 500 m/s
 _Distance = Annotated[int, msgspec.Meta(ge=0, le=200_000_000)]
 _Span = Annotated[int, msgspec.Meta(ge=0, le=86_400_000)]  # up to a day
 _Instant = Annotated[int, msgspec.Meta(ge=0, le=2**53)]
 
-_WirePoint = tuple[_Millimetres, _Millimetres, _Millimetres]
-_WireVelocity = tuple[_MillimetresPerSecond, _MillimetresPerSecond, _MillimetresPerSecond]
-_WireTag = tuple[_Id, _Millimetres, _Millimetres, _MillimetresPerSecond, _MillimetresPerSecond, _Distance]
-_WireCall = tuple[_Id, _Millimetres, _Millimetres, _MillimetresPerSecond, _MillimetresPerSecond, _Span, _Span]
+_WirePoint = tuple[_Millimeters, _Millimeters, _Millimeters]
+_WireVelocity = tuple[_MillimetersPerSecond, _MillimetersPerSecond, _MillimetersPerSecond]
+_WireTag = tuple[_Id, _Millimeters, _Millimeters, _MillimetersPerSecond, _MillimetersPerSecond, _Distance]
+_WireCall = tuple[_Id, _Millimeters, _Millimeters, _MillimetersPerSecond, _MillimetersPerSecond, _Span, _Span]
 _WireAnswer = tuple[_Id, _Span]
 _WireFrame = tuple[
     Annotated[int, msgspec.Meta(ge=VERSION, le=VERSION)],

@@ -1,6 +1,6 @@
 """Coordinate frames: the mission's local east-north-up plane, MAVLink's north-east-down, and the globe.
 
-The mission has ONE local frame, ENU in metres, whose origin is the mission's home. Every autopilot has its own NED
+The mission has ONE local frame, ENU in meters, whose origin is the mission's home. Every autopilot has its own NED
 frame at its own boot place; `enu_from_geo` brings its origin into the mission's frame.
 """
 
@@ -12,13 +12,13 @@ from math import cos, radians
 Vec3 = tuple[float, float, float]
 
 # WGS84 mean of the meridional and prime-vertical radii is not needed: the tangent plane below is the one ArduPilot
-# uses (LATLON_TO_M), so that our metres agree with the autopilot's.
+# uses (LATLON_TO_M), so that our meters agree with the autopilot's.
 METRES_PER_DEGREE = 111319.49079327357
 
 
 @dataclass(frozen=True, slots=True)
 class GeoPoint:
-    """A place on the globe: WGS84 degrees and metres above mean sea level."""
+    """A place on the globe: WGS84 degrees and meters above mean sea level."""
 
     latitude_deg: float
     longitude_deg: float
@@ -26,7 +26,7 @@ class GeoPoint:
 
 
 def geo_from_enu(origin: GeoPoint, enu_m: Vec3) -> GeoPoint:
-    """The place `enu_m` metres east, north and up of `origin` (tangent plane; good to millimetres within 10 km)."""
+    """The place `enu_m` meters east, north and up of `origin` (tangent plane; good to millimeters within 10 km)."""
     east, north, up = enu_m
     return GeoPoint(
         latitude_deg=origin.latitude_deg + north / METRES_PER_DEGREE,
@@ -36,7 +36,7 @@ def geo_from_enu(origin: GeoPoint, enu_m: Vec3) -> GeoPoint:
 
 
 def enu_from_geo(origin: GeoPoint, place: GeoPoint) -> Vec3:
-    """Metres east, north and up of `origin`: the inverse of `geo_from_enu`."""
+    """Meters east, north and up of `origin`: the inverse of `geo_from_enu`."""
     return (
         (place.longitude_deg - origin.longitude_deg) * METRES_PER_DEGREE * cos(radians(origin.latitude_deg)),
         (place.latitude_deg - origin.latitude_deg) * METRES_PER_DEGREE,

@@ -48,7 +48,7 @@ class Answer(NamedTuple):
 
 
 class Sighting(NamedTuple):
-    """What an agent's own sensor reports of one target: where it is, ENU metres. Not said to anybody."""
+    """What an agent's own sensor reports of one target: where it is, ENU meters. Not said to anybody."""
 
     target: int
     x_m: float

@@ -10,7 +10,7 @@ from comms.frames import Vec3
 
 
 class Activity(StrEnum):
-    """What an agent is doing, as a person watching would say it. One colour each, everywhere."""
+    """What an agent is doing, as a person watching would say it. One color each, everywhere."""
 
     PREPARING = "preparing"  # connect, preflight, takeoff, waiting for the others
     EXPLORE = "explore"
@@ -49,7 +49,7 @@ class HelpCallStatus(msgspec.Struct, frozen=True):
 
 
 class AgentStatus(msgspec.Struct, frozen=True, kw_only=True):
-    """One agent at one tick, as it sees itself. Positions in the mission's ENU frame, metres.
+    """One agent at one tick, as it sees itself. Positions in the mission's ENU frame, meters.
 
     Attributes:
         uid: the agent's number, from 0; its MAVLink system id is uid + 1.

@@ -44,7 +44,7 @@ def system_id(uid: int) -> int:
 
 
 def deployment(mission: Mission) -> tuple[Place, ...]:
-    """Where agents start, by uid: metres east and north of home."""
+    """Where agents start, by uid: meters east and north of home."""
     places = start_places(mission)
     assert places is not None, "a mission whose agents do not fit is no loaded mission"
     return places

@@ -21,7 +21,7 @@ class Phase(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class AgentTruth:
-    """Where an agent's vehicle really is: ENU metres, metres a second, heading clockwise from north."""
+    """Where an agent's vehicle really is: ENU meters, meters a second, heading clockwise from north."""
 
     position_m: Vec3
     velocity_m_s: Vec3
@@ -30,7 +30,7 @@ class AgentTruth:
 
 @dataclass(frozen=True, slots=True)
 class TargetTruth:
-    """Where a target really is (ENU metres, on the ground), whether it is in the world now, and whether it is seen."""
+    """Where a target really is (ENU meters, on the ground), whether it is in the world now, and whether it is seen."""
 
     x_m: float
     y_m: float

@@ -51,7 +51,7 @@ class Demand(NamedTuple):
 
 
 class Airframe:
-    """One vehicle's motion over flat ground, north-east-down metres from where it started.
+    """One vehicle's motion over flat ground, north-east-down meters from where it started.
 
     `step` advances it. Without thrust it sits on the ground or falls. This class answers a demand at once (ideal); the
     multirotor below adds inertia and wind.

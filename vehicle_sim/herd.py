@@ -16,7 +16,7 @@ Place = tuple[float, float]
 
 
 class Herd(Protocol):
-    """Targets, by id. `places` holds (x, y) in ENU metres, or None for a target that is not in the world now."""
+    """Targets, by id. `places` holds (x, y) in ENU meters, or None for a target that is not in the world now."""
 
     places: list[Place | None]
 
@@ -113,7 +113,7 @@ class Random(_Walkers):
 
 
 class Replay:
-    """Targets that repeat recorded tracks from `start_s` on, brought back to the edge where a track leaves the arena."""
+    """Targets that repeat recorded tracks from `start_s` on, held at the edge while a track is outside the arena."""
 
     def __init__(self, *, arena: Arena, tracks: Tracks, tick_s: float, start_s: float = 0.0) -> None:
         self._arena = arena

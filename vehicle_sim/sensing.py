@@ -1,4 +1,4 @@
-"""What an agent's sensor sees. Scalar rules that missions and studies share; the horizontal plane, metres."""
+"""What an agent's sensor sees. Scalar rules that missions and studies share; the horizontal plane, meters."""
 
 from __future__ import annotations
 

@@ -39,7 +39,7 @@ class VehicleConfig:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VehicleTruth:
-    """Where a vehicle really is: north-east-down metres from its own home, metres a second, radians."""
+    """Where a vehicle really is: north-east-down meters from its own home, meters a second, radians."""
 
     position_ned_m: Vec3
     velocity_ned_m_s: Vec3

@@ -23,7 +23,7 @@ class World:
 
     @property
     def places(self) -> Sequence[Place | None]:
-        """Where every target is, ENU metres; None while it is not in the world."""
+        """Where every target is, ENU meters; None while it is not in the world."""
         return self.herd.places
 
     def sense(self, agents: Sequence[Place]) -> list[list[Sighting]]:

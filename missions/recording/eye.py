@@ -24,7 +24,7 @@ _UP = np.array((0.0, sin(_PITCH), cos(_PITCH)))
 
 
 def fitting_eye(scene: Scene) -> tuple[Point, Point]:
-    """Position and look target, ENU metres, of a camera in the south that looks down at 42 degrees.
+    """Position and look target, ENU meters, of a camera in the south that looks down at 42 degrees.
 
     The look target slides along the picture's vertical to where the camera may come closest, or to the middle of such
     places when the width alone decides.

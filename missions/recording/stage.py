@@ -32,7 +32,7 @@ _NAMED_TARGETS = 20
 
 @dataclass(frozen=True, slots=True)
 class Sizes:
-    """Glyph sizes that look the same in a 30 m disc and in a 1.5 km square, metres."""
+    """Glyph sizes that look the same in a 30 m disc and in a 1.5 km square, meters."""
 
     unit_m: float
 

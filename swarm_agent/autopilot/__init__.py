@@ -3,7 +3,7 @@ it back. Sans-io: bytes in, bytes out, time an argument.
 
     pilot = Pilot(PilotConfig(uid=3, system_id=4, home=home, altitude_m=16.0, max_speed_m_s=5.0))
     pilot.listen(now_s, wire_in)                      # each tick: what the vehicle sent
-    where = pilot.state.position_m                    # ENU metres in the mission's frame
+    where = pilot.state.position_m                    # ENU meters in the mission's frame
     wire_out = pilot.act(now_s, Prepare())            # until pilot.state.ready
     wire_out = pilot.act(now_s, Fly((2.0, -1.0)))     # each tick: velocity east, north
     wire_out = pilot.act(now_s, Return())             # until pilot.state.phase is Phase.DONE (or FAILED)

@@ -17,7 +17,7 @@ class PilotConfig:
 
     Attributes:
         uid: the agent's number, named in errors. system_id: the vehicle's MAVLink system id (by custom uid + 1).
-        home: origin of the mission's ENU frame; its altitude counts, layers are metres above it.
+        home: origin of the mission's ENU frame; its altitude counts, layers are meters above it.
         altitude_m: the layer this vehicle flies at, up of `home`; also the altitude it returns at.
         max_speed_m_s: no horizontal setpoint is faster.
         max_climb_m_s: no vertical setpoint is faster, up or down.

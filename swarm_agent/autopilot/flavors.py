@@ -94,8 +94,8 @@ ARDUPILOT = Flavor(
     mode_names=ARDUCOPTER_MODES,
     takeoff_is_amsl=False,
     return_altitude=(
-        AltitudeParameter("RTL_ALT", dialect.MAV_PARAM_TYPE_INT32, 100.0),  # centimetres, up to 4.6
-        AltitudeParameter("RTL_ALT_M", dialect.MAV_PARAM_TYPE_REAL32, 1.0),  # metres, from 4.7
+        AltitudeParameter("RTL_ALT", dialect.MAV_PARAM_TYPE_INT32, 100.0),  # centimeters, up to 4.6
+        AltitudeParameter("RTL_ALT_M", dialect.MAV_PARAM_TYPE_REAL32, 1.0),  # meters, from 4.7
     ),
     setpoint_memory_s=3.0,
 )

@@ -14,7 +14,7 @@ from swarm_agent.autopilot.flavors import AltitudeParameter, Mode
 
 AUTOPILOT_COMPONENT_ID = dialect.MAV_COMP_ID_AUTOPILOT1
 FORCE_NOTHING = 0.0
-LARGEST_NUMBER = 1e7  # ids, microseconds and metres all stay below; a number beyond has crashed real autopilots
+LARGEST_NUMBER = 1e7  # ids, microseconds and meters all stay below; a number beyond has crashed real autopilots
 
 
 class Answer(Enum):
@@ -101,7 +101,7 @@ class WriteAltitude:
         )
 
     def answer_in(self, reply: Message) -> Answer | None:
-        """Accepted if a PARAM_VALUE says that the value is stored, to a centimetre; refused if another one is."""
+        """Accepted if a PARAM_VALUE says that the value is stored, to a centimeter; refused if another one is."""
         if reply.get_msgId() == dialect.MAVLINK_MSG_ID_PARAM_ERROR:
             return Answer.UNSUPPORTED if reply.param_id == self.parameter.name else None
         if reply.get_msgId() != dialect.MAVLINK_MSG_ID_PARAM_VALUE or reply.param_id != self.parameter.name:

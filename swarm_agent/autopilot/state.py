@@ -30,7 +30,7 @@ class Phase(StrEnum):
 
 
 class PilotState(msgspec.Struct, frozen=True, kw_only=True):
-    """The vehicle at one tick, as its autopilot tells it. ENU metres in the mission's frame.
+    """The vehicle at one tick, as its autopilot tells it. ENU meters in the mission's frame.
 
     Attributes:
         ready: it has reached its layer and follows `Fly` now.

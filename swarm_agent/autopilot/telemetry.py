@@ -18,7 +18,7 @@ RESTART_MS = 5000  # a boot clock that falls back this far belongs to a new boot
 
 
 class Telemetry:
-    """The newest of everything one vehicle says. Fed with messages, read by the phases; ENU metres.
+    """The newest of everything one vehicle says. Fed with messages, read by the phases; ENU meters.
 
     Attributes:
         heartbeat_at_s, position_at_s, attitude_at_s: when they were last heard; None before.

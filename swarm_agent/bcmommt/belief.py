@@ -22,7 +22,7 @@ Column = Any  # a list of numbers in flight, a numpy array in a study
 
 
 class Table(NamedTuple):
-    """One agent's knowledge, by column. Instants are mission-clock seconds; positions ENU metres.
+    """One agent's knowledge, by column. Instants are mission-clock seconds; positions ENU meters.
 
     Per target: the best known position and velocity with their instant; own distance now and one tick ago (FAR when
     not sensed); own tag and call with the predicted time of loss; the best tag, the call and the answer heard of it,
@@ -111,7 +111,7 @@ def see(t: Table, j: int, x: float, y: float, me_x: float, me_y: float, now: flo
     t.known_at_s[j] = now
     t.sensed[j] = True
     dx, dy = x - me_x, y - me_y
-    # In whole millimetres, as mates will read it: both sides of a comparison must hold the same number.
+    # In whole millimeters, as mates will read it: both sides of a comparison must hold the same number.
     t.distance_m[j] = floor(sqrt(dx * dx + dy * dy) * 1000.0 + 0.5) / 1000.0
 
 

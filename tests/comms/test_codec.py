@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from comms.codec import decode, encode
 from comms.messages import Answer, Frame, HelpCall, Tag, on_wire
 
-metres = st.floats(-90_000, 90_000).map(on_wire)
+meters = st.floats(-90_000, 90_000).map(on_wire)
 speeds = st.floats(-400, 400).map(on_wire)
 spans = st.floats(0, 3600).map(on_wire)
 targets = st.integers(0, 999)
@@ -20,10 +20,10 @@ frames = st.builds(
     seq=st.integers(0, 2**40),
     sent_at_s=spans,
     ttl_s=spans,
-    position_m=st.tuples(metres, metres, metres),
+    position_m=st.tuples(meters, meters, meters),
     velocity_m_s=st.tuples(speeds, speeds, speeds),
-    tags=st.lists(st.builds(Tag, targets, metres, metres, speeds, speeds, spans), max_size=12).map(tuple),
-    help_calls=st.lists(st.builds(HelpCall, targets, metres, metres, speeds, speeds, spans, spans), max_size=9).map(
+    tags=st.lists(st.builds(Tag, targets, meters, meters, speeds, speeds, spans), max_size=12).map(tuple),
+    help_calls=st.lists(st.builds(HelpCall, targets, meters, meters, speeds, speeds, spans, spans), max_size=9).map(
         tuple
     ),
     answers=st.lists(st.builds(Answer, targets, spans), max_size=2).map(tuple),
@@ -79,7 +79,7 @@ def test_a_damaged_frame_never_raises(data: st.DataObject) -> None:
         (1, -1),  # nobody
         (2, "7"),  # a sequence number that is text
         (3, -1),  # before the clock began
-        (5, (10**9, 0, 0)),  # a thousand kilometres away
+        (5, (10**9, 0, 0)),  # a thousand kilometers away
         (6, (0, 0)),  # two of three components
         (7, [(4, 0, 0, 0, 0, -1)]),  # a negative distance
         (7, [(4, 0, 0, 0, 0)]),  # a tag without its distance
