@@ -94,8 +94,9 @@ def _explore(
         goal, since = stalest_cell(t, p, x, y, now), now
     if goal != NOBODY:
         dx, dy = cell_x(p, goal) - x, cell_y(p, goal) - y
-        norm = max(sqrt(dx * dx + dy * dy), 1e-9)
-        hx, hy = dx / norm, dy / norm
+        distance = sqrt(dx * dx + dy * dy)
+        if distance > 1e-6:  # else right above its center: straight on
+            hx, hy = dx / distance, dy / distance
     else:
         hx, hy = walk(t, p, hx, hy, me, x, y, now, seed, tick)
     mind = Mind(mind.mode, mind.helping, mind.capture_s, hx, hy, goal, since)
