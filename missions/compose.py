@@ -140,7 +140,7 @@ def world(mission: Mission) -> World:
         TracksError: a file of tracks that cannot be read.
         InputError: tracks of another place: not one fix lies in the arena.
     """
-    return World(herd=_herd(mission), sensing_range_m=mission.agents.sensing.range_m)
+    return World(herd=herd(mission), sensing_range_m=mission.agents.sensing.range_m)
 
 
 def air(mission: Mission, bus: Bus) -> Air:
@@ -156,7 +156,8 @@ def air(mission: Mission, bus: Bus) -> Air:
     )
 
 
-def _herd(mission: Mission) -> Herd:
+def herd(mission: Mission) -> Herd:
+    """The targets, at the places where the mission finds them."""
     arena, targets, tick_s, seed = mission.arena.area, mission.targets, mission.tick_s, mission.seed
     if isinstance(targets, TrackTargets):
         tracks = read_tracks(targets.file, home=mission.home.place, max_gap_s=targets.max_gap_s)

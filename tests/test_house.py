@@ -20,9 +20,9 @@ FENCES = {
     "zenoh": {"comms/session.py"},
     "pymavlink": {"comms/mavlink.py", "swarm_agent/autopilot/", "vehicle_sim/autopilot/"},
     "rerun": {"missions/recording/"},
-    "numpy": {"missions/recording/"},
-    "torch": set(),
-    "numba": set(),
+    "numpy": {"missions/recording/", "missions/study/", "missions/train"},
+    "torch": {"missions/train"},
+    "numba": {"missions/study/"},
 }
 
 

@@ -1,0 +1,274 @@
+"""Thousands of missions at once: ideal vehicles, ideal radio, and the same rules as in the air, compiled.
+
+runs = fly_many(load_mission("quickstart"), seeds=range(1, 101))
+runs.coverage.mean(), runs.coverage_late, runs.events
+kept = trace(load_mission("narrow"), seed=1)     # one mission with everything kept
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from comms.chance import PLACE_AGENT, PLACE_TARGET
+from missions import compose
+from missions.mission import Mission, TrackTargets
+from missions.study.loop import EVASIVE, RANDOM, REPLAY, STATIC, Flock, Kept, Said, Setup, fly
+from swarm_agent.bcmommt.belief import FAR, NEVER, NOBODY, Table, cell_columns, cell_rows
+from swarm_agent.bcmommt.params import Params
+from vehicle_sim.placement import heading
+
+_MOTIONS = {"evasive": EVASIVE, "random": RANDOM, "static": STATIC}
+Floats = npt.NDArray[np.float64]
+Ints = npt.NDArray[np.int64]
+Flags = npt.NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Runs:
+    """What came of R runs of T ticks.
+
+    Attributes:
+        seeds (R): of each run. seen (R, T): targets seen by at least one agent. present (R, T): targets in the world.
+        events (R, 3): target losses, discoveries, tag switches (definition 7).
+        help (R, 4): calls, answered, captured, taken over. n_agents, n_targets: of each run.
+    """
+
+    seeds: Ints
+    seen: npt.NDArray[np.int32]
+    present: npt.NDArray[np.int32]
+    events: Ints
+    help: Ints
+    n_agents: int
+    n_targets: int
+
+    @property
+    def coverage(self) -> Floats:
+        """A/n of each run, eq. 1 over n: (R)."""
+        return _share(self.seen, self.present)
+
+    @property
+    def coverage_late(self) -> Floats:
+        """The same over the last quarter of the ticks: (R)."""
+        start = self.seen.shape[1] * 3 // 4
+        return _share(self.seen[:, start:], self.present[:, start:])
+
+    @property
+    def utilization(self) -> Floats:
+        """Coverage times targets per agent: (R)."""
+        return self.coverage * self.n_targets / self.n_agents
+
+
+@dataclass(frozen=True)
+class Trace:
+    """Everything of one run of T ticks, m agents, n targets: places in ENU meters, and who senses and tags whom.
+
+    agents (T, m, 2), targets (T, n, 2), tagged and sensed (T, m, n), mode (T, m) as `Mode` values, seen, present (T).
+    """
+
+    agents: Floats
+    targets: Floats
+    tagged: Flags
+    sensed: Flags
+    mode: npt.NDArray[np.int8]
+    seen: npt.NDArray[np.int32]
+    present: npt.NDArray[np.int32]
+    events: Ints
+    help: Ints
+
+
+def fly_many(mission: Mission, *, seeds: Sequence[int], threads: int | None = None) -> Runs:
+    """Fly `mission` once for every seed, on all cores (or `threads` of them). Memory is that of the results."""
+    with ThreadPoolExecutor(threads or os.cpu_count() or 1) as pool:
+        kept = list(pool.map(partial(_run, mission, start_tick=0, keep_all=False), seeds))
+    n_targets = _herd_size(mission)
+    return Runs(
+        seeds=np.array(seeds, dtype=np.int64),
+        seen=np.array([run.seen for run in kept]),
+        present=np.array([run.present for run in kept]),
+        events=np.array([run.events for run in kept]),
+        help=np.array([run.help for run in kept]),
+        n_agents=mission.agents.count,
+        n_targets=n_targets,
+    )
+
+
+def trace(mission: Mission, *, seed: int, start_tick: int = 0) -> Trace:
+    """Fly one mission and keep everything.
+
+    Args:
+        start_tick: the clock's tick at which the mission begins; a flight's clock has been running since power-on.
+    """
+    kept = _run(mission, seed, start_tick=start_tick, keep_all=True)
+    return Trace(
+        agents=kept.agents,
+        targets=kept.targets,
+        tagged=kept.tagged,
+        sensed=kept.sensed,
+        mode=kept.mode,
+        seen=kept.seen,
+        present=kept.present,
+        events=kept.events,
+        help=kept.help,
+    )
+
+
+def _run(mission: Mission, seed: int, *, start_tick: int, keep_all: bool) -> Kept:
+    mission = mission.model_copy(update={"seed": seed})
+    params = compose.params(mission)
+    setup = _setup(mission, start_tick)
+    m, n = len(setup.home_x), len(setup.target_x)
+    kept = _kept(setup.ticks, m, n, keep_all)
+    fly(setup, params, _tables(params, m, n), _flock(setup), _said(m, n), _said(m, n), kept)
+    return kept
+
+
+def _setup(mission: Mission, start_tick: int) -> Setup:
+    targets, seed = mission.targets, mission.seed
+    ticks = max(1, round(mission.duration_s / mission.tick_s))
+    homes = np.array(compose.deployment(mission))
+    headings = np.array([heading(who=uid, seed=seed, purpose=PLACE_AGENT) for uid in range(mission.agents.count)])
+    herd = compose.herd(mission)
+    places = np.array([(0.0, 0.0) if place is None else place for place in herd.places])
+    target_headings = np.array([heading(who=j, seed=seed, purpose=PLACE_TARGET) for j in range(len(places))])
+    tracks = np.zeros((0, len(places), 2))
+    speed, motion = 0.0, REPLAY
+    if isinstance(targets, TrackTargets):
+        tracks = np.full((ticks, len(places), 2), np.nan)
+        for tick in range(ticks):
+            for j, place in enumerate(herd.places):
+                if place is not None:
+                    tracks[tick, j] = place
+            herd.advance(tick, (), ())
+    else:
+        speed, motion = targets.speed_m_s, _MOTIONS[targets.motion]
+    return Setup(
+        home_x=homes[:, 0].copy(),
+        home_y=homes[:, 1].copy(),
+        heading_x=headings[:, 0].copy(),
+        heading_y=headings[:, 1].copy(),
+        target_x=places[:, 0].copy(),
+        target_y=places[:, 1].copy(),
+        target_ux=target_headings[:, 0].copy(),
+        target_uy=target_headings[:, 1].copy(),
+        track_x=tracks[:, :, 0].copy(),
+        track_y=tracks[:, :, 1].copy(),
+        motion=motion,
+        target_speed_m_s=speed,
+        notice_range_m=mission.target_sensing_range_m,
+        comm_range_m=mission.radio.range_m,
+        seed=seed,
+        ticks=ticks,
+        start_tick=start_tick,
+    )
+
+
+def _herd_size(mission: Mission) -> int:
+    return len(compose.herd(mission).places)
+
+
+def _tables(params: Params, m: int, n: int) -> Table:
+    cells = cell_columns(params) * cell_rows(params)
+
+    def per_target(value: float, dtype: Any = np.float64) -> npt.NDArray[Any]:
+        return np.full((m, n), value, dtype)
+
+    return Table(
+        sensed=per_target(False, np.bool_),
+        x_m=per_target(0.0),
+        y_m=per_target(0.0),
+        vx_m_s=per_target(0.0),
+        vy_m_s=per_target(0.0),
+        known_at_s=per_target(NEVER),
+        distance_m=per_target(FAR),
+        distance_before_m=per_target(FAR),
+        tagged=per_target(False, np.bool_),
+        calling=per_target(False, np.bool_),
+        loss_in_s=per_target(FAR),
+        lost_at_s=per_target(NEVER),
+        owner=per_target(NOBODY, np.int64),
+        owner_distance_m=per_target(FAR),
+        owner_at_s=per_target(NEVER),
+        caller=per_target(NOBODY, np.int64),
+        call_loss_at_s=per_target(NEVER),
+        caller_at_s=per_target(NEVER),
+        answerer=per_target(NOBODY, np.int64),
+        answer_capture_s=per_target(FAR),
+        answerer_at_s=per_target(NEVER),
+        mate_x_m=np.zeros((m, m)),
+        mate_y_m=np.zeros((m, m)),
+        mate_at_s=np.full((m, m), NEVER),
+        cell_seen_at_s=np.full((m, cells), NEVER),
+    )
+
+
+def _flock(setup: Setup) -> Flock:
+    m, n = len(setup.home_x), len(setup.target_x)
+    return Flock(
+        mode=np.zeros(m, np.int64),
+        helps=np.full(m, NOBODY),
+        capture=np.full(m, FAR),
+        heading_x=setup.heading_x.copy(),
+        heading_y=setup.heading_y.copy(),
+        goal=np.full(m, NOBODY),
+        goal_since=np.full(m, NEVER),
+        east=np.zeros(m),
+        north=np.zeros(m),
+        x=setup.home_x.copy(),
+        y=setup.home_y.copy(),
+        before_x=np.zeros(m),
+        before_y=np.zeros(m),
+        v_east=np.zeros(m),
+        v_north=np.zeros(m),
+        target_x=setup.target_x.copy(),
+        target_y=setup.target_y.copy(),
+        target_ux=setup.target_ux.copy(),
+        target_uy=setup.target_uy.copy(),
+        here=np.ones(n, np.bool_),
+        owned=np.zeros((m, n), np.bool_),
+        helping=np.full(m, NOBODY),
+        called_at=np.full((m, n), NEVER),
+    )
+
+
+def _said(m: int, n: int) -> Said:
+    return Said(
+        x=np.zeros(m),
+        y=np.zeros(m),
+        n_tags=np.zeros(m, np.int64),
+        tag=np.zeros((m, n), np.int64),
+        tag_values=np.zeros((m, n, 5)),
+        n_calls=np.zeros(m, np.int64),
+        call=np.zeros((m, n), np.int64),
+        call_values=np.zeros((m, n, 6)),
+        answer=np.full(m, NOBODY),
+        capture=np.zeros(m),
+    )
+
+
+def _kept(ticks: int, m: int, n: int, keep_all: bool) -> Kept:
+    more = ticks if keep_all else 0
+    return Kept(
+        seen=np.zeros(ticks, np.int32),
+        present=np.zeros(ticks, np.int32),
+        events=np.zeros(3, np.int64),
+        help=np.zeros(4, np.int64),
+        agents=np.zeros((more, m, 2)),
+        targets=np.zeros((more, n, 2)),
+        tagged=np.zeros((more, m, n), np.bool_),
+        sensed=np.zeros((more, m, n), np.bool_),
+        mode=np.zeros((more, m), np.int8),
+    )
+
+
+def _share(seen: npt.NDArray[np.int32], present: npt.NDArray[np.int32]) -> Floats:
+    total = present.sum(axis=1)
+    share: Floats = np.divide(seen.sum(axis=1), total, out=np.full(len(seen), np.nan), where=total > 0)
+    return share
