@@ -1,7 +1,8 @@
-"""A mission file as plain values that remember their line: YAML 1.2 in, a tree of dicts, lists and scalars out."""
+"""A mission or study file as plain values that remember their line: YAML 1.2 in, dicts, lists and scalars out."""
 
 from __future__ import annotations
 
+from copy import deepcopy
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -22,7 +23,7 @@ _LONGEST_SCALAR = 40
 
 @dataclass(slots=True)
 class Document:
-    """The values of a mission file, where each was given, and what was wrong with the way they were written."""
+    """The values of a file, where each was given, and what was wrong with the way they were written."""
 
     source: str
     values: dict[str, Any] = field(default_factory=dict)
@@ -41,6 +42,34 @@ class Document:
         for key in path:
             value = value.get(key) if isinstance(value, dict) else None
         return value
+
+    def put(self, path: Path, value: Any, mark: Mark) -> None:
+        """Set the value at `path`, and make the sections on the way there; `mark` says where all of it was given."""
+        self.claim(path, mark)
+        self._mark_inside(path, value, mark)
+        section = self.values
+        for depth, name in enumerate(path[:-1], start=1):
+            inner = section.get(name)
+            if not isinstance(inner, dict):
+                inner = section[name] = {}
+                self.marks[path[:depth]] = mark
+            section = inner
+        section[path[-1]] = value
+
+    def claim(self, path: Path, mark: Mark) -> None:
+        """Say that all at `path` was given at `mark`, whatever stood there before."""
+        for known in [known for known in self.marks if known[: len(path)] == path]:
+            del self.marks[known]
+        self.marks[path] = mark
+
+    def _mark_inside(self, path: Path, value: Any, mark: Mark) -> None:
+        for name, inner in value.items() if isinstance(value, dict) else ():
+            self.marks[(*path, name)] = mark
+            self._mark_inside((*path, name), inner, mark)
+
+    def copy(self) -> Document:
+        """The same document, to be changed apart from this one."""
+        return Document(self.source, deepcopy(self.values), dict(self.marks), list(self.problems))
 
 
 def read_document(data: bytes, *, source: str) -> Document:
@@ -64,9 +93,7 @@ def read_document(data: bytes, *, source: str) -> Document:
 def read_value(document: Document, path: Path, text: str, *, mark: Mark) -> Any:
     """One value written as YAML, as it would stand at `path`; `mark` says where all of it was given."""
     node = _compose(text, mark.source, lines=False)
-    for known in [known for known in document.marks if known[: len(path)] == path]:
-        del document.marks[known]
-    document.marks[path] = mark
+    document.claim(path, mark)
     return None if node is None else _Reader(document, mark, one_mark=True).value(node, path)
 
 
@@ -121,8 +148,15 @@ class _Reader:
         if isinstance(node, MappingNode):
             return self._mapping(node, path)
         if isinstance(node, SequenceNode):
-            return [self.value(item, path) for item in node.value]
+            return [self._item(item, (*path, str(number)), path) for number, item in enumerate(node.value)]
         return self._scalar(node)
+
+    def _item(self, node: Node, own: Path, path: Path) -> Any:
+        """An item of a list: mappings are told apart by their number, so that their keys have lines of their own."""
+        if not isinstance(node, MappingNode):
+            return self.value(node, path)
+        self._document.marks[own] = self._mark_of(node)
+        return self.value(node, own)
 
     def _mapping(self, node: MappingNode, path: Path) -> dict[str, Any]:
         values: dict[str, Any] = {}

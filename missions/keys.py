@@ -27,13 +27,19 @@ class Key:
     field: FieldInfo | None
 
 
-def find_key(location: Sequence[int | str]) -> Key:
-    """The key at pydantic's `location`, which has, unlike the key's path, the tag of every variant on its way."""
-    section: type[Part] = Mission
-    inner: Mapping[str | None, type[Part]] = {_ONLY: Mission}
+def find_key(location: Sequence[int | str], root: type[Part] = Mission) -> Key:
+    """The key at pydantic's `location`, which has, unlike the key's path, the tag of every variant on its way.
+
+    Inside a value that is no section (a list of numbers, a mapping of words) the field stays that of the value.
+    """
+    section: type[Part] = root
+    inner: Mapping[str | None, type[Part]] = {_ONLY: root}
     field: FieldInfo | None = None
     path: Path = ()
-    for step in map(str, location):
+    for step in location:
+        if not inner or isinstance(step, int):
+            path = (*path, str(step))
+            continue
         if step in inner:
             inner = {_ONLY: inner[step]}
             continue
@@ -45,8 +51,10 @@ def find_key(location: Sequence[int | str]) -> Key:
 
 
 def variants(field: FieldInfo) -> dict[str | None, type[Part]]:
-    """The kinds of section a field takes, by tag; none for a plain value."""
+    """The kinds of section a field takes, or a list of them, by tag; none for a plain value."""
     annotation = field.annotation
+    if get_origin(annotation) is tuple:
+        annotation = get_args(annotation)[0]
     if isinstance(annotation, type) and issubclass(annotation, Part):
         return {_ONLY: annotation}
     tagged = [get_args(choice) for choice in get_args(annotation)]

@@ -8,12 +8,12 @@ text = dump_mission(mission)  # YAML with every key; loads to the same mission
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from copy import deepcopy
 from difflib import get_close_matches
 from io import StringIO
 from pathlib import Path as FilePath
-from typing import Any
+from typing import Any, TypeVar
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
@@ -21,12 +21,14 @@ from ruamel.yaml import YAML
 
 from missions.document import Document, read_document
 from missions.keys import Key, allowed, chooser, find_key
-from missions.mission import Mission
-from missions.overrides import Override, apply_override
+from missions.mission import Mission, Part
+from missions.overrides import Override, Setting, apply_override
 from missions.problems import Mark, MissionError, Path, Problem, did_you_mean, shown
 from missions.rules import RULES, Rule
 
 LIBRARY = FilePath(__file__).parent / "library"
+
+P = TypeVar("P", bound=Part)
 
 _MAX_BYTES = 1_000_000
 _TRACKS_FILE: Path = ("targets", "file")
@@ -43,21 +45,46 @@ def load_mission(name_or_path: str, *, overrides: Iterable[Override] = ()) -> Mi
     Raises:
         MissionError: no such mission, or mistakes in it or in the overrides: all of them.
     """
-    bundled = name_or_path in bundled_names()
-    path = LIBRARY / f"{name_or_path}.yaml" if bundled else FilePath(name_or_path)
-    source = path.name if bundled else name_or_path
-    return parse_mission(_read(path, source), source=source, folder=path.parent, overrides=overrides)
+    document = open_mission(name_or_path)
+    override_mission(document, overrides)
+    return checked_mission(document)
 
 
 def parse_mission(data: bytes, *, source: str, folder: FilePath, overrides: Iterable[Override] = ()) -> Mission:
     """`load_mission` of a file's bytes. `source` names it in problems; its relative paths start at `folder`."""
     document = read_document(data, source=source)
     _anchor(document, folder)
+    override_mission(document, overrides)
+    return checked_mission(document)
+
+
+def open_mission(name_or_path: str, *, folder: FilePath | None = None) -> Document:
+    """The document of `load_mission`, its keys not yet checked; a relative path starts at `folder`, or else here."""
+    bundled = name_or_path in bundled_names()
+    path = LIBRARY / f"{name_or_path}.yaml" if bundled else (folder or FilePath()) / name_or_path
+    source = path.name if bundled else name_or_path
+    document = read_document(read_input(path, source=source, what="mission", bundled=bundled_names()), source=source)
+    _anchor(document, path.parent)
+    return document
+
+
+def override_mission(
+    document: Document, overrides: Iterable[Override | Setting], *, folder: FilePath | None = None
+) -> None:
+    """Put values into an open mission; their relative paths start at `folder`, or else at the working directory."""
     for override in overrides:
         apply_override(document, override)
-    _anchor(document, FilePath.cwd())
+    _anchor(document, folder or FilePath.cwd())
+
+
+def checked_mission(document: Document) -> Mission:
+    """The mission of an open document.
+
+    Raises:
+        MissionError: all mistakes in it, in the order of its lines.
+    """
     mission, problems = _check(document)
-    problems = sorted([*document.problems, *problems], key=lambda problem: _in_file_order(problem, source))
+    problems = sorted([*document.problems, *problems], key=lambda problem: in_file_order(problem, document.source))
     if mission is None or problems:
         raise MissionError(problems)
     return mission
@@ -72,20 +99,25 @@ def dump_mission(mission: Mission) -> str:
     return out.getvalue()
 
 
-def _read(path: FilePath, source: str) -> bytes:
+def read_input(path: FilePath, *, source: str, what: str, bundled: Sequence[str]) -> bytes:
+    """The bytes of a mission or study file; `what` and the `bundled` ones are for the words of the error.
+
+    Raises:
+        MissionError: there is no such file, or it cannot be read.
+    """
+    a_file = f"the path of a {what} file"
     try:
         with path.open("rb") as file:
             data = file.read(_MAX_BYTES + 1)
     except FileNotFoundError as error:
-        bundled = bundled_names()
         hint = did_you_mean(path.stem, bundled, at_most=3)
-        choices = f"the path of a mission file, or a bundled mission ({', '.join(bundled)}){hint}"
-        raise MissionError([Problem(Mark(source), (), "no such mission", choices)]) from error
+        choices = f"{a_file}, or a bundled {what} ({', '.join(bundled)}){hint}"
+        raise MissionError([Problem(Mark(source), (), f"no such {what}", choices)]) from error
     except (OSError, ValueError) as error:
         got = "a directory" if isinstance(error, IsADirectoryError) else f"an unreadable file ({error})"
-        raise MissionError([Problem(Mark(source), (), got, "the path of a mission file")]) from error
+        raise MissionError([Problem(Mark(source), (), got, a_file)]) from error
     if len(data) > _MAX_BYTES:
-        raise MissionError([Problem(Mark(source), (), "more than a megabyte", "the path of a mission file")])
+        raise MissionError([Problem(Mark(source), (), "more than a megabyte", a_file)])
     return data
 
 
@@ -101,23 +133,25 @@ def _anchor(document: Document, folder: FilePath) -> None:
 def _check(document: Document) -> tuple[Mission | None, list[Problem]]:
     """The mission, None if a key is wrong; and the problems of single keys and of the rules between them."""
     unread = {problem.path for problem in document.problems}
-    mission, errors = _validated(document.values)
-    found = [_key_problem(document, error) for error in errors]
+    mission, errors = validated(Mission, document.values)
+    found = [key_problem(document, error) for error in errors]
     # What could not be read stands as null, which is not a second mistake.
     found = [problem for problem in found if problem.path not in unread or problem.got != "null"]
     wrong = unread | {path for error in errors for path in _in_doubt(find_key(error["loc"]))}
     return mission, found + _broken_rules(document, mission or _mended(document, wrong), wrong)
 
 
-def _validated(values: dict[str, Any]) -> tuple[Mission | None, list[ErrorDetails]]:
+def validated(root: type[P], values: dict[str, Any]) -> tuple[P | None, list[ErrorDetails]]:
+    """The values as the model has them; None if a key is wrong, and then what pydantic says."""
     try:
-        return Mission.model_validate(values), []
+        return root.model_validate(values), []
     except ValidationError as error:
         return None, error.errors(include_url=False, include_context=False)
 
 
-def _key_problem(document: Document, error: ErrorDetails) -> Problem:
-    key = find_key(error["loc"])
+def key_problem(document: Document, error: ErrorDetails, root: type[Part] = Mission) -> Problem:
+    """One of pydantic's errors about the values of `document`, in our words."""
+    key = find_key(error["loc"], root)
     mark = document.mark(key.path)
     if key.field is None:
         known = list(key.section.model_fields)
@@ -149,12 +183,12 @@ def _mended(document: Document, wrong: set[Path]) -> Mission | None:
         if path and isinstance(section, dict):
             section.pop(path[-1], None)
     values.setdefault("name", "unnamed")
-    mission, errors = _validated(values)
+    mission, errors = validated(Mission, values)
     if mission is None:  # a key that has no default went: its whole section has to
         for error in errors:
             wrong.add((str(error["loc"][0]),))
             values.pop(str(error["loc"][0]), None)
-        mission, _ = _validated(values)
+        mission, _ = validated(Mission, values)
     return mission
 
 
@@ -178,5 +212,6 @@ def _rule_problem(document: Document, mission: Mission, rule: Rule, text: str) -
     return Problem(document.mark(given), blamed, f"{shown(value)} (the default)", text)
 
 
-def _in_file_order(problem: Problem, source: str) -> tuple[bool, int]:
+def in_file_order(problem: Problem, source: str) -> tuple[bool, int]:
+    """Sorts problems: those of the file first, by line."""
     return problem.mark.source != source, problem.mark.line or 0

@@ -1,8 +1,9 @@
-"""Values given on the command line: `--set agents.count=5` puts 5, read as YAML, at that key of the document."""
+"""Values put on top of a mission: `--set agents.count=5` puts 5, read as YAML, at that key of the document."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 from missions.document import Document, read_value
 from missions.problems import Mark, MissionError, Path, Problem, shown
@@ -18,11 +19,23 @@ class Override:
     option: str = "--set"
 
 
-def apply_override(document: Document, override: Override) -> None:
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """A value for one key that needs no reading, and where it was given."""
+
+    path: Path
+    value: Any
+    mark: Mark
+
+
+def apply_override(document: Document, override: Override | Setting) -> None:
     """Put the value into the document; a later one wins. What is wrong becomes the document's problem.
 
     Whether there is such a key, and whether the value is allowed, shows when the whole document is checked.
     """
+    if isinstance(override, Setting):
+        document.put(override.path, override.value, override.mark)
+        return
     mark = Mark(override.option)
     key, equals, text = override.text.partition("=")
     path: Path = tuple(key.strip().split("."))
@@ -34,11 +47,4 @@ def apply_override(document: Document, override: Override) -> None:
     except MissionError as error:
         document.problems += [Problem(mark, path, problem.got, problem.allowed) for problem in error.problems]
         return
-    section = document.values
-    for depth, name in enumerate(path[:-1], start=1):
-        inner = section.get(name)
-        if not isinstance(inner, dict):
-            inner = section[name] = {}
-            document.marks[path[:depth]] = mark
-        section = inner
-    section[path[-1]] = value
+    document.put(path, value, mark)
