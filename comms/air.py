@@ -44,9 +44,9 @@ class Air:
         self._delay_ticks = link.delay_ticks(model.latency_s, tick_s)
         self._spoken: list[tuple[int, bytes]] = []
         self._under_way: deque[tuple[int, int, int, bytes]] = deque()  # (due tick, dst, src, payload), by due tick
-        self._receivers: list[list[Put]] = [
-            [bus.publisher(keys.rx(dst, src)) for src in range(n_agents)] for dst in range(n_agents)
-        ]
+        self._bus = bus
+        self._keys = keys
+        self._puts: dict[tuple[int, int], Put] = {}  # by (dst, src), declared when first needed
         self.count = AirCount()
         self.links: tuple[tuple[int, int], ...] = ()
         bus.subscribe(keys.every_tx, self._hear)
@@ -84,9 +84,15 @@ class Air:
         links = set()
         while self._under_way and self._under_way[0][0] <= tick + 1:
             _, dst, src, payload = self._under_way.popleft()
-            self._receivers[dst][src](payload)
+            self._deliver(dst, src, payload)
             links.add((src, dst) if src < dst else (dst, src))
             delivered += 1
         count.delivered += delivered
         self.links = tuple(sorted(links))
         return delivered
+
+    def _deliver(self, dst: int, src: int, payload: bytes) -> None:
+        put = self._puts.get((dst, src))
+        if put is None:
+            put = self._puts[dst, src] = self._bus.publisher(self._keys.rx(dst, src))
+        put(payload)

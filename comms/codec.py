@@ -10,7 +10,7 @@ from typing import Annotated
 
 import msgspec
 
-from comms.messages import VERSION, Answer, Frame, HelpCall, Tag
+from comms.messages import MAX_ANSWERS, MAX_CALLS, MAX_TAGS, VERSION, Answer, Frame, HelpCall, Tag
 
 MAX_FRAME_BYTES = 4096  # nobody needs more; longer input is not looked at
 MAX_TARGETS = 65_536
@@ -35,9 +35,9 @@ _WireFrame = tuple[
     _Span,
     _WirePoint,
     _WireVelocity,
-    Annotated[list[_WireTag], msgspec.Meta(max_length=256)],
-    Annotated[list[_WireCall], msgspec.Meta(max_length=256)],
-    Annotated[list[_WireAnswer], msgspec.Meta(max_length=256)],
+    Annotated[list[_WireTag], msgspec.Meta(max_length=MAX_TAGS)],
+    Annotated[list[_WireCall], msgspec.Meta(max_length=MAX_CALLS)],
+    Annotated[list[_WireAnswer], msgspec.Meta(max_length=MAX_ANSWERS)],
 ]
 
 _encoder = msgspec.msgpack.Encoder()

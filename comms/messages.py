@@ -12,6 +12,10 @@ from typing import NamedTuple
 from comms.frames import Vec3
 
 VERSION = 1
+# What one frame holds at most; 4096 bytes have room for it.
+MAX_TAGS = 64
+MAX_CALLS = 48
+MAX_ANSWERS = 8
 
 
 class Tag(NamedTuple):

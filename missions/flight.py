@@ -85,8 +85,9 @@ class Flight:
         mission_tick = tick - self._phase_began if on_duty else None
         truths = [self._truth(uid) for uid in range(len(self.vehicles))]
         places = [truth.position_m[:2] for truth in truths]
+        aloft = [place if self._is_aloft(uid) else None for uid, place in enumerate(places)]
 
-        sightings = self.world.sense(places) if on_duty else [[] for _ in places]
+        sightings = self.world.sense(aloft) if on_duty else [[] for _ in places]
         order = Order(mission_tick=mission_tick, come_home=self._phase is Phase.RETURN)
         outputs = self._think(now_s, order, sightings)
         self._speak(tick, outputs, places)
@@ -95,7 +96,7 @@ class Flight:
             self._count_coverage()
         observation = self._observe(tick, mission_tick, late_s, truths, outputs)
         if mission_tick is not None:
-            self.world.advance(mission_tick, places)
+            self.world.advance(mission_tick, aloft)
         after_s = (tick + 1) * self.mission.tick_s
         self._telemetry = [
             vehicle.tick(after_s, output.wire) for vehicle, output in zip(self.vehicles, outputs, strict=True)
@@ -120,6 +121,9 @@ class Flight:
     def _count_coverage(self) -> None:
         present = sum(1 for place in self.world.places if place is not None)
         self.coverage.add(seen=sum(self.world.seen), present=present)
+
+    def _is_aloft(self, uid: int) -> bool:
+        return not self.vehicles[uid].truth.on_ground
 
     def _truth(self, uid: int) -> AgentTruth:
         truth = self.vehicles[uid].truth
@@ -182,8 +186,8 @@ class Flight:
     def _next_phase(self, next_tick: int, statuses: Sequence[AgentStatus], stop: bool) -> Phase:
         in_phase_s = floor((next_tick - self._phase_began) * self.mission.tick_s)
         if self._phase is Phase.RETURN:
-            landed = all(status.activity in _ENDED for status in statuses)
-            return Phase.DONE if landed or in_phase_s >= RETURN_LIMIT_S else Phase.RETURN
+            over = all(self._has_ended(status) for status in statuses)
+            return Phase.DONE if over or in_phase_s >= RETURN_LIMIT_S else Phase.RETURN
         if stop:
             return Phase.RETURN
         if self._phase is Phase.PREPARE:
@@ -192,4 +196,9 @@ class Flight:
             if not waiting or in_phase_s >= PREPARE_LIMIT_S:
                 return Phase.RETURN
             return Phase.MISSION if all(agent.ready for agent in waiting) else Phase.PREPARE
-        return Phase.RETURN if self.complete else Phase.MISSION
+        nobody_left = all(self._has_ended(status) for status in statuses)
+        return Phase.RETURN if self.complete or nobody_left else Phase.MISSION
+
+    def _has_ended(self, status: AgentStatus) -> bool:
+        """Landed, or lost and lying on the ground: one that is lost in the air may yet come down."""
+        return status.activity in _ENDED and not self._is_aloft(status.uid)

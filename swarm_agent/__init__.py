@@ -15,7 +15,7 @@ What an agent decides that sees one target fleeing east, and nothing else in the
 >>> table, mind = new_table(n_targets=1, n_agents=1, n_cells=0), new_mind(1.0, 0.0)
 >>> for tick in range(2):
 ...     begin_tick(table)
-...     see(table, 0, 2.0 + 0.03 * tick, 0.0, 0.0, 0.0, now=0.1 * tick)
+...     see(table, params, 0, 2.0 + 0.03 * tick, 0.0, 0.0, 0.0, now=0.1 * tick)
 ...     mind, east, north = decide(table, params, mind, 0, 0.0, 0.0, 0.1 * tick, 1, tick)
 >>> mind.mode.name, table.tagged, (east, north)
 ('FOLLOW', [True], (0.4, 0.0))

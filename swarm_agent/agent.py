@@ -16,12 +16,13 @@ from msgspec import structs
 from comms.messages import Frame, Sighting
 from comms.status import Activity, AgentStatus, HelpCallStatus
 from swarm_agent.autopilot import Fly, Intent, Phase, Pilot, PilotConfig, PilotState, Prepare, Return
-from swarm_agent.bcmommt.belief import NOBODY, begin_tick, cell_columns, cell_rows, new_table, see
+from swarm_agent.bcmommt.belief import NOBODY, Table, begin_tick, cell_columns, cell_rows, new_table, see
 from swarm_agent.bcmommt.modes import Mode
-from swarm_agent.bcmommt.params import Params
+from swarm_agent.bcmommt.params import Explore, Params
 from swarm_agent.bcmommt.speech import answers_said, calls_said, hear, tags_said
-from swarm_agent.bcmommt.step import decide, new_mind
+from swarm_agent.bcmommt.step import Mind, new_mind
 from swarm_agent.news import news
+from swarm_agent.policies.choice import decide
 
 
 class Order(NamedTuple):
@@ -66,10 +67,9 @@ class Agent:
     """Agent `uid` of a mission. It knows what it senses, what reaches its radio, and what its autopilot tells."""
 
     def __init__(self, config: AgentConfig) -> None:
-        p = config.params
         self._config = config
-        self._table = new_table(config.n_targets, config.n_agents, cell_columns(p) * cell_rows(p))
-        self._mind = new_mind(*config.heading)
+        self._on_duty = False
+        self._table, self._mind = self._innocence()
         self._seq = 0
         self._told: AgentStatus | None = None
         self.pilot = Pilot(config.pilot)
@@ -93,16 +93,24 @@ class Agent:
         state = pilot.state
         frame: Frame | None = None
         intent: Intent
-        if order.come_home:
-            intent = Return()
-        elif order.mission_tick is None or state.position_m is None or state.velocity_m_s is None:
-            intent = Prepare()
-        else:
+        on_duty = state.ready and order.mission_tick is not None and not order.come_home
+        if on_duty and order.mission_tick is not None and state.position_m and state.velocity_m_s:
             self._perceive(now_s, state.position_m, sightings, inbox)
             intent = self._decide(now_s, order.mission_tick, state.position_m)
             frame = self._say(now_s, state.position_m, state.velocity_m_s)
+        else:
+            intent = Return() if order.come_home else Prepare()
+            if self._on_duty:  # on the ground or in other hands it must not hold on to targets
+                self._table, self._mind = self._innocence()
+        self._on_duty = frame is not None
         wire = pilot.act(now_s, intent)
-        return Output(frame, wire, self._tell(self._status(order, pilot.state, inbox)))
+        return Output(frame, wire, self._tell(self._status(pilot.state, inbox)))
+
+    def _innocence(self) -> tuple[Table, Mind]:
+        """What an agent knows and thinks before its mission."""
+        config, p = self._config, self._config.params
+        cells = cell_columns(p) * cell_rows(p) if p.explore == Explore.STALE_FIRST else 0
+        return new_table(config.n_targets, config.n_agents, cells), new_mind(*config.heading)
 
     def _tell(self, status: AgentStatus) -> AgentStatus:
         """The status with everything to be said in words: by the autopilot, the pilot and the algorithm."""
@@ -115,10 +123,9 @@ class Agent:
     ) -> None:
         table = self._table
         begin_tick(table)
-        for frame in inbox:
-            hear(table, self._config.params, frame)
+        hear(table, self._config.params, inbox)
         for target, x, y in sightings:
-            see(table, target, x, y, me[0], me[1], now_s)
+            see(table, self._config.params, target, x, y, me[0], me[1], now_s)
 
     def _decide(self, now_s: float, mission_tick: int, me: tuple[float, float, float]) -> Fly:
         config = self._config
@@ -144,21 +151,18 @@ class Agent:
             answers_said(self._mind),
         )
 
-    def _status(self, order: Order, state: PilotState, inbox: Sequence[Frame]) -> AgentStatus:
-        on_duty = order.mission_tick is not None and not order.come_home
-        table = self._table
-        calls = self._calls() if on_duty else ()
-        helping = self._mind.helping if on_duty and self._mind.helping != NOBODY else None
+    def _status(self, state: PilotState, inbox: Sequence[Frame]) -> AgentStatus:
+        calls = self._calls()
         return AgentStatus(
             uid=self._config.uid,
-            activity=self._activity(on_duty, any(call.urgent for call in calls), state),
+            activity=self._activity(any(call.urgent for call in calls), state),
             position_m=state.position_m,
             velocity_m_s=state.velocity_m_s,
             heading_rad=state.heading_rad,
             battery=state.battery,
-            tags=tuple([j for j, mine in enumerate(table.tagged) if mine]) if on_duty else (),
+            tags=tuple([j for j, mine in enumerate(self._table.tagged) if mine]),
             calls=calls,
-            helping=helping,
+            helping=None if self._mind.helping == NOBODY else self._mind.helping,
             mates=tuple([frame.src for frame in inbox]),
             flight_mode=state.flight_mode,
         )
@@ -175,14 +179,14 @@ class Agent:
             ]
         )
 
-    def _activity(self, on_duty: bool, calling: bool, state: PilotState) -> Activity:
+    def _activity(self, calling: bool, state: PilotState) -> Activity:
         if state.phase is Phase.DONE:
             return Activity.LANDED
         if state.phase is Phase.FAILED or state.link_lost:
             return Activity.LOST
         if state.phase in (Phase.RETURN, Phase.LAND):
             return Activity.RETURNING
-        if not on_duty:
+        if not self._on_duty:
             return Activity.PREPARING
         if self._mind.mode is Mode.FOLLOW:
             return Activity.CALLING if calling else Activity.FOLLOW

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from comms.status import AgentStatus, Event, Level
+from comms.status import Activity, AgentStatus, Event, Level
+
+OFF_DUTY = (Activity.PREPARING, Activity.RETURNING, Activity.LANDED, Activity.LOST)  # then it leaves targets to nobody
 
 
 def news(before: AgentStatus | None, now: AgentStatus) -> tuple[Event, ...]:
@@ -10,7 +12,7 @@ def news(before: AgentStatus | None, now: AgentStatus) -> tuple[Event, ...]:
 
     A target that leaves this agent's tags may be followed by a mate now, or be lost: the agent says which it knows.
     """
-    if before is None:
+    if before is None or now.activity in OFF_DUTY:
         return ()
     events = []
     lost = {call.target for call in now.calls if call.target not in now.tags}

@@ -26,21 +26,25 @@ class World:
         """Where every target is, ENU meters; None while it is not in the world."""
         return self.herd.places
 
-    def sense(self, agents: Sequence[Place]) -> list[list[Sighting]]:
-        """What each agent at its true (x, y) sees now, by uid; sightings in the order of target ids."""
+    def sense(self, agents: Sequence[Place | None]) -> list[list[Sighting]]:
+        """What each agent at its true (x, y) sees now, by uid; None is an agent on the ground, which sees nothing.
+
+        Sightings are in the order of target ids.
+        """
         range_m, seen = self._range_m, [False] * len(self.herd.places)
         sightings: list[list[Sighting]] = [[] for _ in agents]
         for target, place in enumerate(self.herd.places):
             if place is None:
                 continue
             x, y = place
-            for uid, (agent_x, agent_y) in enumerate(agents):
-                if sees(x - agent_x, y - agent_y, range_m):
+            for uid, agent in enumerate(agents):
+                if agent is not None and sees(x - agent[0], y - agent[1], range_m):
                     sightings[uid].append(Sighting(target, x, y))
                     seen[target] = True
         self.seen = seen
         return sightings
 
-    def advance(self, tick: int, agents: Sequence[Place]) -> None:
-        """Targets decide from state `tick` and move to `tick` + 1."""
-        self.herd.advance(tick, [x for x, _ in agents], [y for _, y in agents])
+    def advance(self, tick: int, agents: Sequence[Place | None]) -> None:
+        """Targets decide from state `tick` and move to `tick` + 1; they notice agents in the air alone."""
+        aloft = [agent for agent in agents if agent is not None]
+        self.herd.advance(tick, [x for x, _ in aloft], [y for _, y in aloft])

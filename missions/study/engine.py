@@ -235,6 +235,7 @@ def _flock(setup: Setup) -> Flock:
         owned=np.zeros((m, n), np.bool_),
         helping=np.full(m, NOBODY),
         called_at=np.full((m, n), NEVER),
+        heard=np.zeros(m, np.bool_),
     )
 
 

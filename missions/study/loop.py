@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from comms.link import in_range
-from comms.messages import on_wire
+from comms.messages import MAX_CALLS, MAX_TAGS, on_wire
 from missions.study.rules import compiled, inlined
 from swarm_agent.bcmommt.belief import (
     NOBODY,
@@ -87,7 +87,7 @@ class Flock(NamedTuple):
         mode .. goal_since (m): the columns of every agent's `Mind`. east, north (m): true place from home; x, y (m): in
         the mission's frame, and before_x, before_y one tick ago; v_east, v_north (m): velocity to the next tick.
         target_x .. target_uy (n), here (n): targets, and whether they are in the world.
-        owned (m, n), helping (m): tags and help one tick ago. called_at (m, n): when each call was last out.
+        owned (m, n), helping (m): tags and help one tick ago. called_at (m, n): when each call was last out. heard (m): scratch.
     """
 
     mode: Array
@@ -113,6 +113,7 @@ class Flock(NamedTuple):
     owned: Array
     helping: Array
     called_at: Array
+    heard: Array
 
 
 class Kept(NamedTuple):
@@ -163,8 +164,7 @@ def _row(t: Table, i: int) -> Table:
 
 @inlined
 def _hear(t: Table, p: Params, said: Said, q: int, at: float) -> None:
-    """Enter the frame of agent q into a table, as `speech.hear` does."""
-    hear_mate(t, q, said.x[q], said.y[q], at)
+    """Enter what agent q says into a table, as `speech.hear` does."""
     for k in range(said.n_tags[q]):
         j, v = said.tag[q, k], said.tag_values
         hear_position(t, j, v[q, k, 0], v[q, k, 1], v[q, k, 2], v[q, k, 3], at)
@@ -183,13 +183,13 @@ def _say(said: Said, t: Table, p: Params, i: int, x: float, y: float, now: float
     said.x[i], said.y[i] = on_wire(x), on_wire(y)
     n_tags = n_calls = 0
     for j in range(len(t.tagged)):
-        if t.tagged[j]:
+        if t.tagged[j] and n_tags < MAX_TAGS:
             said.tag[i, n_tags] = j
             v = said.tag_values[i, n_tags]
             v[0], v[1] = on_wire(t.x_m[j]), on_wire(t.y_m[j])
             v[2], v[3], v[4] = on_wire(t.vx_m_s[j]), on_wire(t.vy_m_s[j]), on_wire(t.distance_m[j])
             n_tags += 1
-        if t.calling[j]:
+        if t.calling[j] and n_calls < MAX_CALLS:
             said.call[i, n_calls] = j
             v = said.call_values[i, n_calls]
             v[0], v[1] = on_wire(t.x_m[j]), on_wire(t.y_m[j])
@@ -253,11 +253,17 @@ def _act(s: Setup, p: Params, t: Table, f: Flock, old: Said, new: Said, i: int, 
     begin_tick(t)
     if k > 0:
         for q in range(len(f.x)):
-            if q != i and in_range(f.before_x[i] - f.before_x[q], f.before_y[i] - f.before_y[q], s.comm_range_m):
+            f.heard[q] = q != i and in_range(
+                f.before_x[i] - f.before_x[q], f.before_y[i] - f.before_y[q], s.comm_range_m
+            )
+            if f.heard[q]:
+                hear_mate(t, q, old.x[q], old.y[q], said_at)
+        for q in range(len(f.x)):
+            if f.heard[q]:
                 _hear(t, p, old, q, said_at)
     for j in range(len(f.here)):
         if f.here[j] and sees(f.target_x[j] - f.x[i], f.target_y[j] - f.y[i], p.sensing_range_m):
-            see(t, j, f.target_x[j], f.target_y[j], x, y, now)
+            see(t, p, j, f.target_x[j], f.target_y[j], x, y, now)
     mode = Mode.EXPLORE if f.mode[i] == 0 else (Mode.FOLLOW if f.mode[i] == 1 else Mode.HELP)
     mind = Mind(mode, f.helps[i], f.capture[i], f.heading_x[i], f.heading_y[i], f.goal[i], f.goal_since[i])
     mind, vx, vy = decide(t, p, mind, i, x, y, now, s.seed, k)

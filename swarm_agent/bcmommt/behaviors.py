@@ -6,7 +6,7 @@ from math import sqrt
 
 from comms.arena import edge_distance_m, outward_normal
 from comms.chance import EXPLORE_TURN, draw
-from swarm_agent.bcmommt.belief import FAR, NEVER, NOBODY, Table, cell_x, cell_y, predicted_x, predicted_y, see_cells
+from swarm_agent.bcmommt.belief import FAR, NEVER, NOBODY, Table, cell_x, cell_y, predicted_place, see_cells
 from swarm_agent.bcmommt.params import Params
 
 # Persistent walk: the heading diffuses by about 0.3 rad in a second, and turns away from mates and the edge.
@@ -53,7 +53,8 @@ def follow(t: Table, p: Params, me_x: float, me_y: float) -> tuple[float, float]
 def approach(t: Table, p: Params, j: int, me_x: float, me_y: float, now: float) -> tuple[float, float]:
     """At full speed to where target j is predicted to be now, slowing down only on top of it."""
     gain = p.follow_gain_per_s
-    dx, dy = predicted_x(t, j, now) - me_x, predicted_y(t, j, now) - me_y
+    x, y = predicted_place(t, p, j, now)
+    dx, dy = x - me_x, y - me_y
     return capped(dx * gain + t.vx_m_s[j], dy * gain + t.vy_m_s[j], p.agent_speed_m_s)
 
 

@@ -9,14 +9,18 @@ from __future__ import annotations
 from math import ceil, floor, sqrt
 from typing import Any, NamedTuple
 
+from comms.arena import clamped
+from comms.messages import on_wire
 from swarm_agent.bcmommt.params import Params
 
 NOBODY = -1
 NEVER = -1.0e9  # an instant so long ago that every lease on it has run out
 FAR = 1.0e9  # a distance or a span beyond all others
 
-# Between two positions further apart in time than this, a target's velocity is not the quotient of the two.
+# Between two positions further apart in time than this (or two ticks), their quotient is not the target's velocity.
 MAX_DIFFERENCE_S = 0.5
+# Nor is it if the target would have been faster than this: then it was misplaced, or mistaken for another.
+JUMP_M_S = 100.0
 
 Column = Any  # a list of numbers in flight, a numpy array in a study
 
@@ -97,22 +101,22 @@ def begin_tick(t: Table) -> None:
         t.sensed[j] = False
 
 
-def see(t: Table, j: int, x: float, y: float, me_x: float, me_y: float, now: float) -> None:
+def see(t: Table, p: Params, j: int, x: float, y: float, me_x: float, me_y: float, now: float) -> None:
     """Target j is sensed at (x, y). Its velocity is the quotient of this and the last known position, if recent."""
     age = now - t.known_at_s[j]
-    if 0.0 < age <= MAX_DIFFERENCE_S:
-        t.vx_m_s[j] = (x - t.x_m[j]) / age
-        t.vy_m_s[j] = (y - t.y_m[j]) / age
-    elif age > MAX_DIFFERENCE_S:
-        t.vx_m_s[j] = 0.0
-        t.vy_m_s[j] = 0.0
+    if age > 0.0:
+        vx, vy = (x - t.x_m[j]) / age, (y - t.y_m[j]) / age
+        if age > max(MAX_DIFFERENCE_S, 2.0 * p.tick_s) or vx * vx + vy * vy > JUMP_M_S * JUMP_M_S:
+            vx, vy = 0.0, 0.0
+        t.vx_m_s[j] = vx
+        t.vy_m_s[j] = vy
     t.x_m[j] = x
     t.y_m[j] = y
     t.known_at_s[j] = now
     t.sensed[j] = True
     dx, dy = x - me_x, y - me_y
-    # In whole millimeters, as mates will read it: both sides of a comparison must hold the same number.
-    t.distance_m[j] = floor(sqrt(dx * dx + dy * dy) * 1000.0 + 0.5) / 1000.0
+    # As mates will read it: both sides of a comparison must hold the same number.
+    t.distance_m[j] = on_wire(sqrt(dx * dx + dy * dy))
 
 
 def hear_mate(t: Table, mate: int, x: float, y: float, at: float) -> None:
@@ -187,16 +191,13 @@ def owned_by_mate(t: Table, p: Params, j: int, now: float) -> bool:
     return alive(t.owner[j], t.owner_at_s[j], p.tag_lease_s, now)
 
 
-def predicted_x(t: Table, j: int, now: float) -> float:
-    """Where target j is now, east: its last known position continued linearly (predictive tracking, section 4.1)."""
-    x: float = t.x_m[j] + t.vx_m_s[j] * (now - t.known_at_s[j])
-    return x
+def predicted_place(t: Table, p: Params, j: int, now: float) -> tuple[float, float]:
+    """Where target j is now: its last known position continued linearly (predictive tracking, section 4.1).
 
-
-def predicted_y(t: Table, j: int, now: float) -> float:
-    """Where target j is now, north."""
-    y: float = t.y_m[j] + t.vy_m_s[j] * (now - t.known_at_s[j])
-    return y
+    Not beyond the edge: targets never leave the arena.
+    """
+    age = now - t.known_at_s[j]
+    return clamped(p.arena, t.x_m[j] + t.vx_m_s[j] * age, t.y_m[j] + t.vy_m_s[j] * age)
 
 
 def cell_columns(p: Params) -> int:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from math import floor, sqrt
+from math import sqrt
 
+from comms.messages import on_wire
 from swarm_agent.bcmommt.belief import (
     FAR,
     NEVER,
@@ -12,8 +13,7 @@ from swarm_agent.bcmommt.belief import (
     alive,
     outranks,
     owned_by_mate,
-    predicted_x,
-    predicted_y,
+    predicted_place,
 )
 from swarm_agent.bcmommt.params import Call, Gate, Params
 from swarm_agent.bcmommt.reach import time_to_capture
@@ -44,9 +44,10 @@ def remember_losses(t: Table, p: Params, me_x: float, me_y: float, now: float) -
 
 
 def _looks_empty(t: Table, p: Params, j: int, me_x: float, me_y: float, now: float) -> bool:
-    """Whether target j is not where it was expected: well within my sight, and not there."""
-    dx, dy = predicted_x(t, j, now) - me_x, predicted_y(t, j, now) - me_y
-    return dx * dx + dy * dy < 0.25 * p.sensing_range_m * p.sensing_range_m
+    """Whether target j is not where it was expected: well within my sight, and not sensed there."""
+    x, y = predicted_place(t, p, j, now)
+    dx, dy = x - me_x, y - me_y
+    return not t.sensed[j] and dx * dx + dy * dy < 0.25 * p.sensing_range_m * p.sensing_range_m
 
 
 def is_lost(t: Table, p: Params, j: int, now: float) -> bool:
@@ -55,13 +56,16 @@ def is_lost(t: Table, p: Params, j: int, now: float) -> bool:
     return lost_for < p.memory_s
 
 
-def is_called(t: Table, p: Params, j: int, now: float) -> bool:
+def is_called(t: Table, p: Params, j: int, me_x: float, me_y: float, now: float) -> bool:
     """Whether a call for target j is in force: a mate's, or my own for one that I lost.
 
-    A call whose target somebody other than the caller follows is settled.
+    A call whose target somebody other than the caller follows is settled, and one whose target is not where it should
+    be leads nowhere.
     """
     if is_lost(t, p, j, now):
         return True
+    if _looks_empty(t, p, j, me_x, me_y, now):
+        return False
     return alive(t.caller[j], t.caller_at_s[j], p.help_lease_s, now) and (
         t.owner[j] == t.caller[j] or not owned_by_mate(t, p, j, now)
     )
@@ -75,13 +79,13 @@ def time_until_loss(t: Table, p: Params, j: int, now: float) -> float:
     return max(0.0, remaining)
 
 
-def keeps(t: Table, p: Params, j: int, me: int, my_capture: float, now: float) -> bool:
+def keeps(t: Table, p: Params, j: int, me: int, me_x: float, me_y: float, my_capture: float, now: float) -> bool:
     """Whether a commitment to the call for target j stands: the call lives and nobody quicker has taken it over.
 
     Args:
         my_capture: the time to capture that I broadcast one tick ago, as old as the mate's answer.
     """
-    if not is_called(t, p, j, now):
+    if not is_called(t, p, j, me_x, me_y, now):
         return False  # withdrawn, expired or settled. PAPER: Algorithm 1 has no way back from Help to Explore
     rival = alive(t.answerer[j], t.answerer_at_s[j], p.help_lease_s, now)
     return not (rival and outranks(t.answer_capture_s[j], t.answerer[j], my_capture, me))
@@ -100,17 +104,18 @@ def choose(
     """
     best, best_capture, best_distance, best_unanswered = NOBODY, FAR, FAR, False
     for j in range(len(t.caller)):
-        if not is_called(t, p, j, now):
+        if not is_called(t, p, j, me_x, me_y, now):
             continue
         capture = time_to_capture(t, p, j, me_x, me_y, now)
         if capture >= FAR or (p.gate == Gate.IN_TIME and capture >= time_until_loss(t, p, j, now)):
             continue
         unanswered = not alive(t.answerer[j], t.answerer_at_s[j], p.help_lease_s, now)
         if not unanswered:
-            mine = my_capture if j == helping else floor(capture * 1000.0 + 0.5) / 1000.0
+            mine = my_capture if j == helping else on_wire(capture)
             if not outranks(mine, me, t.answer_capture_s[j], t.answerer[j]):
                 continue
-        dx, dy = predicted_x(t, j, now) - me_x, predicted_y(t, j, now) - me_y
+        x, y = predicted_place(t, p, j, now)
+        dx, dy = x - me_x, y - me_y
         distance = sqrt(dx * dx + dy * dy)
         if unanswered == best_unanswered:
             better = capture < best_capture or (capture == best_capture and distance < best_distance)

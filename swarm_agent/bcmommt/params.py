@@ -8,6 +8,15 @@ from typing import NamedTuple
 from comms.arena import Arena
 
 
+class Policy(IntEnum):
+    """How agents decide."""
+
+    A_CMOMMT = 0  # Parker: the force sum of eq. 2
+    B_CMOMMT_BASIC = 1  # section 4.1: help is called when a target is lost
+    B_CMOMMT = 2  # section 4.2, Algorithm 1
+    REGIONS = 3  # Jung & Sukhatme: agents spread over regions as targets do
+
+
 class Predictor(IntEnum):
     """How the time of loss is predicted."""
 
@@ -65,3 +74,4 @@ class Params(NamedTuple):
     capture: int
     commitment: bool
     explore: int
+    policy: int = Policy.B_CMOMMT

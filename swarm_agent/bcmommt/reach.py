@@ -4,17 +4,21 @@ from __future__ import annotations
 
 from math import sqrt
 
-from swarm_agent.bcmommt.belief import FAR, Table, predicted_x, predicted_y
+from swarm_agent.bcmommt.belief import FAR, Table, predicted_place
 from swarm_agent.bcmommt.params import Capture, Params
+
+HOPELESS_S = 3600.0  # whoever would need longer cannot help
 
 
 def time_to_capture(t: Table, p: Params, j: int, me_x: float, me_y: float, now: float) -> float:
     """T_r for an agent at (me_x, me_y) and target j: never below `turn_time_s`, FAR if it cannot be caught."""
-    dx = predicted_x(t, j, now) - me_x
-    dy = predicted_y(t, j, now) - me_y
+    x, y = predicted_place(t, p, j, now)
+    dx, dy = x - me_x, y - me_y
     if p.capture == Capture.INTERCEPT:
-        return intercept_time(dx, dy, t.vx_m_s[j], t.vy_m_s[j], p)
-    return worst_case_time(sqrt(dx * dx + dy * dy), p)
+        capture = intercept_time(dx, dy, t.vx_m_s[j], t.vy_m_s[j], p)
+    else:
+        capture = worst_case_time(sqrt(dx * dx + dy * dy), p)
+    return capture if capture <= HOPELESS_S else FAR
 
 
 def worst_case_time(distance: float, p: Params) -> float:

@@ -2,20 +2,29 @@
 
 from __future__ import annotations
 
-from comms.messages import Answer, Frame, HelpCall, Tag
+from collections.abc import Sequence
+
+from comms.messages import MAX_CALLS, MAX_TAGS, Answer, Frame, HelpCall, Tag
 from swarm_agent.bcmommt.belief import NOBODY, Table, hear_answer, hear_call, hear_mate, hear_position, hear_tag
 from swarm_agent.bcmommt.modes import Mode
 from swarm_agent.bcmommt.params import Params
 from swarm_agent.bcmommt.step import Mind
 
 
-def hear(t: Table, p: Params, frame: Frame) -> None:
-    """Enter one frame into the table. Agents and targets the table has no row for are not ours, and are skipped."""
-    mate, at = frame.src, frame.sent_at_s
-    if mate >= len(t.mate_at_s):
-        return
-    n_targets = len(t.owner)
-    hear_mate(t, mate, frame.position_m[0], frame.position_m[1], at)
+def hear(t: Table, p: Params, frames: Sequence[Frame]) -> None:
+    """Enter a tick's frames into the table; what they say does not depend on their order.
+
+    Agents and targets that the table has no row for are not ours, and are skipped.
+    """
+    known = [frame for frame in frames if frame.src < len(t.mate_at_s)]
+    for frame in known:  # first all that is withdrawn: it must not outrank what another repeats
+        hear_mate(t, frame.src, frame.position_m[0], frame.position_m[1], frame.sent_at_s)
+    for frame in known:
+        _hear_one(t, p, frame)
+
+
+def _hear_one(t: Table, p: Params, frame: Frame) -> None:
+    mate, at, n_targets = frame.src, frame.sent_at_s, len(t.owner)
     for j, x, y, vx, vy, distance in frame.tags:
         if j < n_targets:
             hear_position(t, j, x, y, vx, vy, at)
@@ -30,23 +39,18 @@ def hear(t: Table, p: Params, frame: Frame) -> None:
 
 
 def tags_said(t: Table) -> tuple[Tag, ...]:
-    """The tags to broadcast."""
-    return tuple(
-        [
-            Tag(j, t.x_m[j], t.y_m[j], t.vx_m_s[j], t.vy_m_s[j], t.distance_m[j])
-            for j, mine in enumerate(t.tagged)
-            if mine
-        ]
-    )
+    """The tags to broadcast. What does not fit into a frame is free for others to claim."""
+    mine = [j for j, tagged in enumerate(t.tagged) if tagged][:MAX_TAGS]
+    return tuple([Tag(j, t.x_m[j], t.y_m[j], t.vx_m_s[j], t.vy_m_s[j], t.distance_m[j]) for j in mine])
 
 
 def calls_said(t: Table, p: Params, now: float) -> tuple[HelpCall, ...]:
     """The help calls to broadcast; a target lost already is lost in 0 s."""
+    mine = [j for j, calling in enumerate(t.calling) if calling][:MAX_CALLS]
     return tuple(
         [
             HelpCall(j, t.x_m[j], t.y_m[j], t.vx_m_s[j], t.vy_m_s[j], _loss_in(t, p, j), now - t.known_at_s[j])
-            for j, calling in enumerate(t.calling)
-            if calling
+            for j in mine
         ]
     )
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from math import floor, sqrt
+from math import sqrt
 from typing import NamedTuple
 
+from comms.messages import on_wire
 from swarm_agent.bcmommt.behaviors import approach, follow, is_seen_since, look_around, stalest_cell, walk
 from swarm_agent.bcmommt.belief import FAR, NEVER, NOBODY, Table, cell_x, cell_y
 from swarm_agent.bcmommt.help import choose, issue_calls, keeps, must_go, remember_losses
@@ -53,42 +54,45 @@ def decide(
     if p.explore == Explore.STALE_FIRST:
         look_around(t, p, x, y, now)
     remember_losses(t, p, x, y, now)
-    helping = still_helping(t, p, mind, me, now)
+    helping = still_helping(t, p, mind, me, x, y, now)
     n_tags = claim_tags(t, p, me, helping, now)
     predict_losses(t, p, n_tags)
     issue_calls(t, p, now)
 
     if n_tags > 0:
         vx, vy = follow(t, p, x, y)
-        return _next(mind, Mode.FOLLOW, NOBODY, FAR), vx, vy
+        return next_mind(mind, Mode.FOLLOW, NOBODY, FAR), vx, vy
 
-    if helping == NOBODY or not p.commitment:
-        helping, capture = choose(t, p, me, x, y, helping, mind.capture_s, now)
-    else:
+    capture = FAR
+    if helping != NOBODY and p.commitment:
         capture = time_to_capture(t, p, helping, x, y, now)
+    if capture >= FAR:  # free to choose, or its target has outrun it
+        helping, capture = choose(t, p, me, x, y, helping, mind.capture_s, now)
     if helping == NOBODY:
-        return _explore(t, p, _next(mind, Mode.EXPLORE, NOBODY, FAR), me, x, y, now, seed, tick)
-    mind = _next(mind, Mode.HELP, helping, floor(capture * 1000.0 + 0.5) / 1000.0)
+        return explore(t, p, next_mind(mind, Mode.EXPLORE, NOBODY, FAR), me, x, y, now, seed, tick)
+    mind = next_mind(mind, Mode.HELP, helping, on_wire(capture))
     if must_go(t, p, helping, capture, now):
         vx, vy = approach(t, p, helping, x, y, now)
         return mind, vx, vy
-    return _explore(t, p, mind, me, x, y, now, seed, tick)
+    return explore(t, p, mind, me, x, y, now, seed, tick)
 
 
-def still_helping(t: Table, p: Params, mind: Mind, me: int, now: float) -> int:
+def still_helping(t: Table, p: Params, mind: Mind, me: int, x: float, y: float, now: float) -> int:
     """The call that the agent stays committed to, or NOBODY."""
-    if mind.helping != NOBODY and keeps(t, p, mind.helping, me, mind.capture_s, now):
+    if mind.helping != NOBODY and keeps(t, p, mind.helping, me, x, y, mind.capture_s, now):
         return mind.helping
     return NOBODY
 
 
-def _next(mind: Mind, mode: Mode, helping: int, capture_s: float) -> Mind:
+def next_mind(mind: Mind, mode: Mode, helping: int, capture_s: float) -> Mind:
+    """The same walk and goal in another mode."""
     return Mind(mode, helping, capture_s, mind.heading_x, mind.heading_y, mind.goal, mind.goal_since_s)
 
 
-def _explore(
+def explore(
     t: Table, p: Params, mind: Mind, me: int, x: float, y: float, now: float, seed: int, tick: int
 ) -> tuple[Mind, float, float]:
+    """The search at full speed, as `p.explore` says: the next mind, with the mode it came in, and the velocity."""
     hx, hy, goal, since = mind.heading_x, mind.heading_y, mind.goal, mind.goal_since_s
     if p.explore == Explore.STALE_FIRST and is_seen_since(t, goal, since):
         goal, since = stalest_cell(t, p, x, y, now), now

@@ -20,6 +20,21 @@ def claim_tags(t: Table, p: Params, me: int, helping: int, now: float) -> int:
     return count
 
 
+def tag_all_sensed(t: Table) -> int:
+    """Fill `t.tagged` with everything sensed, for policies in which nobody owns a target nor calls. Returns how many.
+
+    A tag then only tells the mates which targets are observed, and where.
+    """
+    count = 0
+    for j in range(len(t.sensed)):
+        t.tagged[j] = t.sensed[j]
+        t.calling[j] = False
+        t.loss_in_s[j] = FAR
+        if t.tagged[j]:
+            count += 1
+    return count
+
+
 def yields(t: Table, p: Params, j: int, me: int, now: float) -> bool:
     """Whether a mate's claim on target j beats mine: it is nearer (equal distances: the lower id).
 

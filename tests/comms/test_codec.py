@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from comms.codec import decode, encode
-from comms.messages import Answer, Frame, HelpCall, Tag, on_wire
+from comms.messages import MAX_ANSWERS, MAX_CALLS, MAX_TAGS, Answer, Frame, HelpCall, Tag, on_wire
 
 meters = st.floats(-90_000, 90_000).map(on_wire)
 speeds = st.floats(-400, 400).map(on_wire)
@@ -56,6 +56,22 @@ def test_ten_tags_and_nine_calls_fit_into_512_bytes() -> None:
         (Answer(900, 60.0),),
     )
     assert len(encode(frame)) <= 512
+
+
+def test_the_fullest_frame_is_heard() -> None:
+    far, fast = -99_999.999, -499.999
+    frame = Frame(
+        60_000,
+        2**40,
+        10**7,
+        86_400.0,
+        (far, far, far),
+        (fast, fast, fast),
+        tuple(Tag(60_000 + j, far, far, fast, fast, 199_999.999) for j in range(MAX_TAGS)),
+        tuple(HelpCall(60_000 + j, far, far, fast, fast, 86_400.0, 86_400.0) for j in range(MAX_CALLS)),
+        tuple(Answer(60_000 + j, 86_400.0) for j in range(MAX_ANSWERS)),
+    )
+    assert decode(encode(frame)) == frame
 
 
 @given(st.binary(max_size=200))

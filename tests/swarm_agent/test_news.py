@@ -30,6 +30,10 @@ def test_targets_won_left_and_lost() -> None:
     assert [(event.level, event.text) for event in lost] == [(Level.WARNING, "has lost T3")]
 
 
+def test_coming_home_leaves_nothing_to_a_mate() -> None:
+    assert texts(status(tags=(3,)), status(activity=Activity.RETURNING)) == []
+
+
 def test_help_called_and_given() -> None:
     call = (HelpCallStatus(3, 8.4),)
     assert texts(status(tags=(2, 3)), status(tags=(2, 3), calls=call)) == ["calls for help: T3, in 8 s"]

@@ -45,7 +45,7 @@ def sense(t: Table, j: int, x: float, y: float, vx: float = 0.0, vy: float = 0.0
     """Target j has been in sight of an agent at the origin for two ticks, moving at (vx, vy)."""
     known, t.known_at_s[j] = t.known_at_s[j], LAST_TICK
     t.x_m[j], t.y_m[j] = x - 0.1 * vx, y - 0.1 * vy
-    see(t, j, x, y, 0.0, 0.0, NOW)
+    see(t, PAPER_WORLD, j, x, y, 0.0, 0.0, NOW)
     t.distance_before_m[j] = t.distance_m[j]
     assert known <= LAST_TICK
 

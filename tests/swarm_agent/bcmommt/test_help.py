@@ -87,24 +87,33 @@ def test_a_helper_goes_when_waiting_longer_would_eat_the_margin(margin: float, g
 def test_a_commitment_ends_when_the_call_is_withdrawn_expires_or_is_taken_over() -> None:
     t = table()
     call(t, 0, 1, 6.0, 0.0)
-    assert keeps(t, P, 0, ME, 5.5, NOW)
-    assert not keeps(t, P, 0, ME, 5.5, NOW + 1.0)  # the lease of 1 s has run out
+    assert keeps(t, P, 0, ME, 0.0, 0.0, 5.5, NOW)
+    assert not keeps(t, P, 0, ME, 0.0, 0.0, 5.5, NOW + 1.0)  # the lease of 1 s has run out
     hear_answer(t, P, 0, 4, 5.6, LAST_TICK)
-    assert keeps(t, P, 0, ME, 5.5, NOW)
+    assert keeps(t, P, 0, ME, 0.0, 0.0, 5.5, NOW)
     hear_answer(t, P, 0, 4, 5.4, LAST_TICK)
-    assert not keeps(t, P, 0, ME, 5.5, NOW)
+    assert not keeps(t, P, 0, ME, 0.0, 0.0, 5.5, NOW)
     hear_mate(t, 4, 0.0, 0.0, NOW)  # the rival says nothing of it any more
-    assert keeps(t, P, 0, ME, 5.5, NOW)
+    assert keeps(t, P, 0, ME, 0.0, 0.0, 5.5, NOW)
     hear_mate(t, 1, 0.0, 0.0, NOW)  # the caller neither
-    assert not keeps(t, P, 0, ME, 5.5, NOW)
+    assert not keeps(t, P, 0, ME, 0.0, 0.0, 5.5, NOW)
 
 
 def test_a_call_is_settled_once_somebody_else_follows_its_target() -> None:
     t = table()
     call(t, 0, 1, 6.0, 0.0)
-    assert is_called(t, P, 0, NOW)
+    assert is_called(t, P, 0, 0.0, 0.0, NOW)
     hear_tag(t, P, 0, 3, 0.5, LAST_TICK)
-    assert not is_called(t, P, 0, NOW)
+    assert not is_called(t, P, 0, 0.0, 0.0, NOW)
+
+
+def test_a_call_leads_nowhere_once_its_place_is_seen_to_be_empty() -> None:
+    t = table()
+    call(t, 0, 1, 6.0, 0.0)
+    assert is_called(t, P, 0, 3.0, 0.0, NOW)  # 3 m away
+    assert not is_called(t, P, 0, 4.0, 0.0, NOW)  # well within sight, and not there
+    sense(t, 0, 6.0, 0.0)
+    assert is_called(t, P, 0, 4.0, 0.0, NOW)
 
 
 def lose(p: Params) -> Table:

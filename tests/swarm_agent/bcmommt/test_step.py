@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from math import cos, hypot, sin
+from random import Random
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from comms.messages import Answer, Frame, HelpCall, Tag
-from swarm_agent.bcmommt.belief import FAR, NOBODY, Table, begin_tick, cell_columns, cell_rows, new_table, see
+from swarm_agent.bcmommt.belief import NOBODY, Table, begin_tick, cell_columns, cell_rows, new_table, see
 from swarm_agent.bcmommt.modes import Mode
 from swarm_agent.bcmommt.params import Call, Capture, Explore, Gate, Params
 from swarm_agent.bcmommt.speech import answers_said, calls_said, hear, tags_said
@@ -143,11 +144,10 @@ def test_laws_of_every_decision(
 ) -> None:
     t = new_table(4, 5, cell_columns(p) * cell_rows(p))  # frames speak of targets 4 and 5, which it does not know
     begin_tick(t)
-    for frame in frames:
-        hear(t, p, frame)
+    hear(t, p, frames)
     for j, here in enumerate(spots):
         if here is not None:
-            see(t, j, here[0], here[1], 0.0, 0.0, NOW)
+            see(t, p, j, here[0], here[1], 0.0, 0.0, NOW)
     mind, vx, vy = decide(t, p, new_mind(cos(angle), sin(angle)), ME, 0.0, 0.0, NOW, SEED, TICK)
     assert hypot(vx, vy) <= p.agent_speed_m_s + 1e-9
     assert (mind.mode is Mode.FOLLOW) == any(t.tagged)
@@ -158,6 +158,43 @@ def test_laws_of_every_decision(
     assert len(calls) < max(len(tags), 1)  # never for the nearest
     assert all(0.0 <= c.loss_in_s <= p.horizon_s for c in calls)
     assert hypot(mind.heading_x, mind.heading_y) == pytest.approx(1.0)
+
+
+@given(heard, st.randoms(use_true_random=False))
+def test_the_order_of_frames_does_not_matter(frames: list[Frame], shuffler: Random) -> None:
+    frames = list({frame.src: frame for frame in frames}.values())
+    tables = []
+    for order in (frames, shuffler.sample(frames, len(frames))):
+        t = new_table(6, 5, 0)
+        hear(
+            t, P, [Frame(src, 1, NOW - 0.2, 1.0, (0.0,) * 3, (0.0,) * 3, (Tag(0, 1, 1, 0, 0, 1.0),)) for src in (0, 1)]
+        )
+        hear(t, P, order)
+        tables.append((t.owner, t.owner_distance_m, t.caller, t.call_loss_at_s, t.answerer, t.answer_capture_s))
+    assert tables[0] == tables[1]
+
+
+def test_a_claim_withdrawn_by_one_mate_does_not_shadow_anothers() -> None:
+    t = table()
+    near, far = (Tag(0, 1.0, 0.0, 0.0, 0.0, d) for d in (1.0, 2.0))
+    both = [
+        Frame(1, 1, 9.8, 1.0, (0.0,) * 3, (0.0,) * 3, (far,)),
+        Frame(2, 1, 9.8, 1.0, (0.0,) * 3, (0.0,) * 3, (near,)),
+    ]
+    hear(t, P, both)
+    assert t.owner[0] == 2
+    hear(t, P, [both[0]._replace(sent_at_s=9.9), both[1]._replace(sent_at_s=9.9, tags=())])
+    assert t.owner[0] == 1
+
+
+def test_a_target_that_outruns_its_helper_is_let_go() -> None:
+    t = table()
+    call(t, 1, 0, 0.0, 6.0, loss_in=7.0)
+    mind, _, _ = act(t)
+    assert mind.helping == 1
+    t.vy_m_s[1] = 5.0
+    mind, _, _ = act(t, params(capture=Capture.INTERCEPT, gate=Gate.ALWAYS), mind)
+    assert (mind.mode, mind.helping) == (Mode.EXPLORE, NOBODY)
 
 
 @given(st.lists(spot, min_size=1, max_size=3), st.floats(0, 6.28))
@@ -188,10 +225,14 @@ def test_names_of_targets_do_not_matter(order: list[int], spots: list[tuple[floa
 
 def test_velocity_is_the_quotient_of_two_sightings_and_zero_after_a_gap() -> None:
     t = table()
-    see(t, 0, 1.0, 2.0, 0.0, 0.0, 5.0)
-    see(t, 0, 1.03, 1.98, 0.0, 0.0, 5.1)
+    see(t, P, 0, 1.0, 2.0, 0.0, 0.0, 5.0)
+    see(t, P, 0, 1.03, 1.98, 0.0, 0.0, 5.1)
     assert (t.vx_m_s[0], t.vy_m_s[0]) == pytest.approx((0.3, -0.2))
-    see(t, 0, 4.0, 4.0, 0.0, 0.0, 9.0)
+    see(t, P, 0, 4.0, 4.0, 0.0, 0.0, 9.0)
     assert (t.vx_m_s[0], t.vy_m_s[0]) == (0.0, 0.0)
     assert t.distance_m[0] == pytest.approx(5.657)
-    assert FAR > 1e6
+    slow = params(tick_s=1.0)
+    see(t, slow, 0, 4.3, 4.0, 0.0, 0.0, 10.0)
+    assert t.vx_m_s[0] == pytest.approx(0.3)
+    see(t, P, 0, 64.3, 4.0, 0.0, 0.0, 10.1)  # a jump is not a velocity
+    assert (t.vx_m_s[0], t.vy_m_s[0]) == (0.0, 0.0)
