@@ -2,8 +2,9 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
+PEERS := .venv-peers
 
-.PHONY: run test test-slow check format bench clean
+.PHONY: run test test-slow check format bench bench-peers clean
 
 run: $(VENV)/ground.done
 	@mkdir -p out
@@ -27,8 +28,11 @@ format: $(VENV)/all.done
 bench: $(VENV)/all.done
 	$(BIN)/python -m tests.benchmarks
 
+bench-peers: $(VENV)/all.done $(PEERS)/peers.done
+	$(PEERS)/bin/python -m tests.benchmarks.peers.run --study $(BIN)/python
+
 clean:
-	rm -rf $(VENV) out build dist *.egg-info
+	rm -rf $(VENV) $(PEERS) out build dist *.egg-info
 
 $(BIN)/python:
 	$(PYTHON) -m venv $(VENV)
@@ -40,3 +44,8 @@ $(VENV)/ground.done: pyproject.toml | $(BIN)/python
 $(VENV)/all.done: pyproject.toml | $(BIN)/python
 	$(BIN)/pip install --quiet --editable '.[ground,study,dev]'
 	@touch $@ $(VENV)/ground.done
+
+$(PEERS)/peers.done: tests/benchmarks/peers/requirements.txt
+	$(PYTHON) -m venv $(PEERS)
+	$(PEERS)/bin/pip install --quiet --requirement $<
+	@touch $@
