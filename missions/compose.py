@@ -16,7 +16,7 @@ from missions.problems import InputError
 from missions.rules import start_places
 from swarm_agent.agent import Agent, AgentConfig
 from swarm_agent.autopilot import PilotConfig
-from swarm_agent.bcmommt.params import Call, Capture, Explore, Gate, Params, Predictor
+from swarm_agent.bcmommt.params import Call, Capture, Explore, Gate, Params, Policy, Predictor
 from vehicle_sim.autopilot import SimulatedVehicle
 from vehicle_sim.battery import Battery
 from vehicle_sim.flight import FlightLimits
@@ -31,6 +31,12 @@ Place = tuple[float, float]
 
 # A frame is worth hearing for a few ticks beyond its latency; then its sender is somewhere else.
 FRAME_LIVES_TICKS = 5
+_POLICIES = {
+    "a-cmommt": Policy.A_CMOMMT,
+    "b-cmommt-basic": Policy.B_CMOMMT_BASIC,
+    "b-cmommt": Policy.B_CMOMMT,
+    "regions": Policy.REGIONS,
+}
 _PREDICTORS = {"none": Predictor.NONE, "direct": Predictor.DIRECT}
 _CALLS = {"predicted": Call.PREDICTED, "all_but_nearest": Call.ALL_BUT_NEAREST}
 _GATES = {"in_time": Gate.IN_TIME, "always": Gate.ALWAYS}
@@ -76,6 +82,7 @@ def params(mission: Mission) -> Params:
         capture=_CAPTURES[policy.capture],
         commitment=policy.commitment,
         explore=_EXPLORES[policy.explore],
+        policy=_POLICIES[policy.name],
     )
 
 

@@ -210,10 +210,10 @@ class Radio(Part):
 
 
 class Policy(Part):
-    """How agents decide; all numbers of B-CMOMMT."""
+    """How agents decide. Keys that a policy has no use for, it leaves unread."""
 
-    name: Literal["b-cmommt"] = "b-cmommt"
-    """The policy."""
+    name: Literal["a-cmommt", "b-cmommt-basic", "b-cmommt", "regions"] = "b-cmommt"
+    """The policy: Parker's force sum, the paper's section 4.1, its Algorithm 1, or regions after Jung & Sukhatme."""
     predictor: Literal["direct", "none"] = "direct"
     """Foresees when a target is lost: `direct` is eq. 10 of the paper, `none` foresees nothing."""
     call: Literal["predicted", "all_but_nearest"] = "all_but_nearest"
@@ -235,7 +235,7 @@ class Policy(Part):
     turn_time_s: NonNegative = 0.5
     """Time an agent takes to turn (delta of eq. 13)."""
     horizon_s: Positive = 20.0
-    """Losses further ahead than this are not foreseen."""
+    """Losses further ahead are not foreseen, nor in other policies the places of targets unseen for longer."""
     tag_lease_s: Positive = 0.5
     """A claim of a target expires unless renewed within this time."""
     help_lease_s: Positive = 1.0

@@ -106,7 +106,7 @@ CASES: dict[str, tuple[str, list[str]]] = {
         [
             ':2: vehicle.kind: got "link"; allowed: simulated or ideal',
             ':3: radio.mode: got "field"; allowed: sim or ideal',
-            ':4: policy.name: got "shepherd"; allowed: b-cmommt',
+            ':4: policy.name: got "shepherd"; allowed: a-cmommt, b-cmommt-basic, b-cmommt or regions',
             ':5: agents.sensing.field_of_view: got "camera"; allowed: omni',
         ],
     ),
