@@ -42,7 +42,7 @@ $(VENV)/ground.done: pyproject.toml | $(BIN)/python
 	@touch $@
 
 $(VENV)/all.done: pyproject.toml | $(BIN)/python
-	$(BIN)/pip install --quiet --editable '.[ground,study,dev]'
+	$(BIN)/pip install --quiet --editable '.[ground,study,dask,dev]'
 	@touch $@ $(VENV)/ground.done
 
 $(PEERS)/peers.done: tests/benchmarks/peers/requirements.txt
