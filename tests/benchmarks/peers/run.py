@@ -121,7 +121,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     print("environment steps per core-second: median (least to most)")
     with torch.inference_mode():
         for batch in options.batches:
-            print(f"\n{batch:,} missions at once")
+            print(f"\nmissions at once: {batch:,}")
             for name, found in steps_per_second(batch, options.runs).items():
                 print(f"  {name:<40}{median(found):>10,.0f}  ({min(found):,.0f} to {max(found):,.0f})", flush=True)
         whole, late = scenario_coverage()
