@@ -26,7 +26,8 @@ from swarm_agent.bcmommt.belief import (
 )
 from swarm_agent.bcmommt.modes import Mode
 from swarm_agent.bcmommt.params import Params
-from swarm_agent.bcmommt.step import Mind, decide
+from swarm_agent.bcmommt.step import Mind
+from swarm_agent.policies.choice import decide
 from vehicle_sim.sensing import sees
 from vehicle_sim.targets import evade, roam
 

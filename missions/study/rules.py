@@ -23,9 +23,15 @@ import swarm_agent.bcmommt.belief
 import swarm_agent.bcmommt.help
 import swarm_agent.bcmommt.loss
 import swarm_agent.bcmommt.params
+import swarm_agent.bcmommt.prediction
+import swarm_agent.bcmommt.profiles
 import swarm_agent.bcmommt.reach
 import swarm_agent.bcmommt.step
 import swarm_agent.bcmommt.tags
+import swarm_agent.policies.a_cmommt
+import swarm_agent.policies.basic
+import swarm_agent.policies.choice
+import swarm_agent.policies.regions
 import vehicle_sim.sensing
 import vehicle_sim.targets
 
@@ -44,6 +50,12 @@ RULES: tuple[ModuleType, ...] = (
     swarm_agent.bcmommt.help,
     swarm_agent.bcmommt.behaviors,
     swarm_agent.bcmommt.step,
+    swarm_agent.bcmommt.profiles,
+    swarm_agent.bcmommt.prediction,
+    swarm_agent.policies.a_cmommt,
+    swarm_agent.policies.basic,
+    swarm_agent.policies.regions,
+    swarm_agent.policies.choice,
 )
 
 
