@@ -10,14 +10,19 @@ import argparse
 import json
 import sys
 from collections.abc import Callable, Sequence
+from importlib.util import find_spec
 from math import inf, isfinite
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from missions.load import bundled_names, load_mission
+from missions.load import LIBRARY, bundled_names, load_mission
 from missions.mission import Mission
 from missions.options import LaunchOptions
 from missions.overrides import Override
-from missions.problems import InputError, MissionError
+from missions.problems import InputError
+
+if TYPE_CHECKING:
+    from missions.study.shards import Shard
 
 DONE, FAILED, BAD_INPUT, STOPPED = 0, 1, 2, 130
 
@@ -51,11 +56,14 @@ def launch(options: argparse.Namespace) -> int:
 
 def check(options: argparse.Namespace) -> int:
     """Say of every mission that it is ok, or all that is wrong with it."""
+    from missions.targets import herd
+
     code = DONE
     for name in options.missions:
         try:
             mission = load_mission(name, overrides=_overrides(options))
-        except MissionError as error:
+            herd(mission)  # reads the tracks, if there are any
+        except InputError as error:
             sys.stderr.write(f"{error}\n")
             code = BAD_INPUT
         else:
@@ -93,13 +101,44 @@ def schema(options: argparse.Namespace) -> int:
     return DONE
 
 
+def study(options: argparse.Namespace) -> int:
+    """Fly a study, all of the paper's, or merge what several computers have flown."""
+    missing = [name for name in _STUDY_PACKAGES if find_spec(name) is None]
+    if missing:
+        need = "swarm study needs the `study` extra: pip install 'swarm-mission-stack[study]'"
+        raise InputError(f"{need} (no module {missing[0]!r})")
+    from missions.study.command import StudyOptions, fly_paper, fly_study, merge
+    from missions.study.shards import WHOLE
+
+    name, *folders = options.study
+    if name == "merge" and folders:
+        return merge([Path(folder) for folder in folders], options.out)
+    if folders or name == "merge":
+        allowed = "one study, paper, or merge and the folders to merge"
+        raise InputError(f'STUDY: got "{" ".join(options.study)}"; allowed: {allowed}')
+    settings = StudyOptions(
+        runs=options.runs,
+        seed=options.seed,
+        policies=tuple(options.policy),
+        overrides=tuple(_overrides(argparse.Namespace(set=options.set))),
+        out=options.out,
+        shard=options.shard or WHOLE,
+        dask=options.dask,
+        fresh=options.fresh,
+        threads=options.threads,
+    )
+    return fly_paper(settings) if name == "paper" else fly_study(name, settings)
+
+
 _NEVER_WRAP = 1000
+_STUDY_PACKAGES = ("numpy", "numba", "pyarrow", "matplotlib")
 
 _TOP = """examples:
   swarm launch quickstart              fly ten agents over ten targets
   swarm launch quickstart --set agents.count=5 --report -
   swarm check my.yaml                  every mistake, with line, key and what is allowed
   swarm plan wildlife                  what would run, as tables
+  swarm study figure-16 --runs 20      many missions, compared
 
 `swarm VERB --help` tells more. Exit codes: 0 done, 1 the mission failed, 2 bad input, 130 stopped by Ctrl-C."""
 
@@ -129,6 +168,16 @@ and as the first line of a mission file, for editors that speak yaml-language-se
   # yaml-language-server: $schema=mission.schema.json"""
 
 
+_STUDY = """examples:
+  swarm study figure-16 --runs 20      tables, figures and claims in out/study/figure-16/
+  swarm study paper                    every experiment of the paper, and a page over all of them
+  swarm study my.yaml --policy b-cmommt --set duration_s=60 --out out/mine
+  swarm study my.yaml --shard 2/4 --out part2; swarm study merge part1 part2 part3 part4 --out all
+  swarm study my.yaml --dask tcp://10.0.0.5:8786
+
+A study that is stopped goes on where it was when it is started again."""
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="swarm",
@@ -153,6 +202,8 @@ def _parser() -> argparse.ArgumentParser:
 
     planning = _verb(verbs, "plan", plan, "show what a mission would run", _PLAN)
     _one_mission(planning)
+
+    _add_study(_verb(verbs, "study", study, "fly many missions and compare them", _STUDY))
 
     _verb(verbs, "schema", schema, "print the JSON Schema of missions, for editors", _SCHEMA)
     return parser
@@ -189,6 +240,23 @@ def _add_set(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def _add_study(parser: argparse.ArgumentParser) -> None:
+    studies = sorted(path.stem for path in (LIBRARY / "studies").glob("*.yaml"))
+    about = f"path of a study file, a bundled study ({', '.join(studies)}), paper, or merge DIR..."
+    parser.add_argument("study", nargs="+", metavar="STUDY", help=about)
+    parser.add_argument("--runs", type=_count, metavar="N", help="fly every point N times")
+    parser.add_argument("--seed", type=_whole, metavar="N", help="the first run's seed; the next run has the next")
+    parser.add_argument(
+        "--policy", action="append", default=[], metavar="P", help="fly this policy, and not all; may be repeated"
+    )
+    _add_set(parser)
+    parser.add_argument("--out", type=Path, metavar="DIR", help="the folder of the results")
+    parser.add_argument("--fresh", action="store_true", help="throw away what the folder holds, and fly all again")
+    parser.add_argument("--shard", type=_shard, metavar="i/N", help="fly part i of N alone")
+    parser.add_argument("--dask", metavar="ADDRESS", help="fly on the Dask cluster whose scheduler is there")
+    parser.add_argument("--threads", type=_count, metavar="N", help="use so many cores, and not all")
+
+
 def _mission_help() -> str:
     return f"path of a mission file, or a bundled mission: {', '.join(bundled_names())}"
 
@@ -216,10 +284,33 @@ def _speed(text: str) -> float:
     return speed
 
 
+def _whole(text: str) -> int:
+    if not (text.isascii() and text.isdigit()):
+        raise argparse.ArgumentTypeError(f'got "{text}"; allowed: a whole number, 0 or more')
+    return int(text)
+
+
+def _count(text: str) -> int:
+    if not (text.isascii() and text.isdigit() and int(text) > 0):
+        raise argparse.ArgumentTypeError(f'got "{text}"; allowed: a whole number above 0')
+    return int(text)
+
+
+def _shard(text: str) -> Shard:
+    from missions.study.shards import Shard
+
+    index, _, count = text.partition("/")
+    if not (index.isdigit() and count.isdigit() and 1 <= int(index) <= int(count)):
+        raise argparse.ArgumentTypeError(f'got "{text}"; allowed: i/N with i from 1 to N, such as 2/4')
+    return Shard(int(index), int(count))
+
+
 def _new_file(text: str) -> Path:
     path = Path(text)
-    if path.is_dir() or not path.parent.is_dir():
+    if not path.parent.is_dir():
         raise argparse.ArgumentTypeError(f'got "{text}"; allowed: a file in a directory that exists')
+    if text == "-" or (path.exists() and not path.is_file()):
+        raise argparse.ArgumentTypeError(f'got "{text}"; allowed: an ordinary file')
     return path
 
 

@@ -2,27 +2,23 @@
 
 from __future__ import annotations
 
-from itertools import chain
 from math import atan2
 
 from comms.air import Air, LinkModel
-from comms.arena import Arena, edge_distance_m
-from comms.chance import PLACE_AGENT, PLACE_TARGET
-from comms.frames import geo_from_enu
+from comms.chance import PLACE_AGENT
+from comms.frames import GeoPoint, enu_from_geo, geo_from_enu
 from comms.keys import Keys
 from comms.session import Bus
-from missions.mission import Mission, TrackTargets
-from missions.problems import InputError
+from missions.mission import Mission, TrackTargets, system_id
 from missions.rules import start_places
+from missions.targets import herd
 from swarm_agent.agent import Agent, AgentConfig
 from swarm_agent.autopilot import PilotConfig
 from swarm_agent.bcmommt.params import Call, Capture, Explore, Gate, Params, Policy, Predictor
 from vehicle_sim.autopilot import SimulatedVehicle
 from vehicle_sim.battery import Battery
 from vehicle_sim.flight import FlightLimits
-from vehicle_sim.herd import Evasive, Herd, Random, Replay, Static
-from vehicle_sim.placement import heading, scatter
-from vehicle_sim.tracks import Tracks, read_tracks
+from vehicle_sim.placement import heading
 from vehicle_sim.vehicle import VehicleConfig
 from vehicle_sim.wind import Wind
 from vehicle_sim.world import World
@@ -44,16 +40,21 @@ _CAPTURES = {"worst_case": Capture.WORST_CASE, "intercept": Capture.INTERCEPT}
 _EXPLORES = {"persistent-walk": Explore.PERSISTENT_WALK, "stale-first": Explore.STALE_FIRST}
 
 
-def system_id(uid: int) -> int:
-    """The MAVLink system id of agent `uid`'s vehicle."""
-    return uid + 1
-
-
 def deployment(mission: Mission) -> tuple[Place, ...]:
-    """Where agents start, by uid: meters east and north of home."""
+    """Where agents start, by uid: meters east and north of home, at places that MAVLink's 1e-7 degrees can tell."""
+    home = mission.home.place
+    return tuple(enu_from_geo(home, place)[:2] for place in pads(mission))
+
+
+def pads(mission: Mission) -> tuple[GeoPoint, ...]:
+    """The same places on the globe."""
     places = start_places(mission)
     assert places is not None, "a mission whose agents do not fit is no loaded mission"
-    return places
+    on_globe = (geo_from_enu(mission.home.place, (x, y, 0.0)) for x, y in places)
+    return tuple(
+        GeoPoint(round(place.latitude_deg * 1e7) / 1e7, round(place.longitude_deg * 1e7) / 1e7, place.altitude_m)
+        for place in on_globe
+    )
 
 
 def params(mission: Mission) -> Params:
@@ -106,7 +107,7 @@ def agents(mission: Mission, n_targets: int) -> list[Agent]:
                     home=mission.home.place,
                     altitude_m=mission.agents.altitude.of_agent(uid),
                     max_speed_m_s=mission.agents.speed_m_s,
-                    max_climb_m_s=min(mission.vehicle.limits.climb_m_s, mission.vehicle.limits.descent_m_s),
+                    max_climb_m_s=min(mission.vehicle.limits.climb_m_s, mission.vehicle.limits.descent_m_s, 10.0),
                 ),
             )
         )
@@ -125,13 +126,13 @@ def vehicles(mission: Mission) -> list[SimulatedVehicle]:
         battery=Battery(**vehicle.battery.model_dump()),
     )
     parts = []
-    for uid, (x, y) in enumerate(deployment(mission)):
+    for uid, pad in enumerate(pads(mission)):
         east, north = heading(who=uid, seed=mission.seed, purpose=PLACE_AGENT)
         parts.append(
             SimulatedVehicle(
                 config=config,
                 system_id=system_id(uid),
-                home=geo_from_enu(mission.home.place, (x, y, 0.0)),
+                home=pad,
                 heading_rad=atan2(east, north),
                 seed=mission.seed,
                 started_at_s=0.0,
@@ -144,8 +145,7 @@ def world(mission: Mission) -> World:
     """The targets, and what sensors see of them.
 
     Raises:
-        TracksError: a file of tracks that cannot be read.
-        InputError: tracks of another place: not one fix lies in the arena.
+        InputError: a file of tracks that cannot be read, or of another place.
     """
     return World(herd=herd(mission), sensing_range_m=mission.agents.sensing.range_m)
 
@@ -161,42 +161,3 @@ def air(mission: Mission, bus: Bus) -> Air:
         tick_s=mission.tick_s,
         seed=mission.seed,
     )
-
-
-def herd(mission: Mission) -> Herd:
-    """The targets, at the places where the mission finds them."""
-    arena, targets, tick_s, seed = mission.arena.area, mission.targets, mission.tick_s, mission.seed
-    if isinstance(targets, TrackTargets):
-        tracks = read_tracks(targets.file, home=mission.home.place, max_gap_s=targets.max_gap_s)
-        _check_place(tracks, targets, arena)
-        return Replay(arena=arena, tracks=tracks, tick_s=tick_s, start_s=targets.start_s)
-    places = scatter(
-        count=targets.count, radius_m=targets.deployment.radius_m, spacing_m=0.0, seed=seed, purpose=PLACE_TARGET
-    )
-    headings = [heading(who=target, seed=seed, purpose=PLACE_TARGET) for target in range(targets.count)]
-    if targets.motion == "static":
-        return Static(arena=arena, places=places, headings=headings, tick_s=tick_s, seed=seed)
-    if targets.motion == "random":
-        return Random(
-            arena=arena, places=places, headings=headings, tick_s=tick_s, seed=seed, speed_m_s=targets.speed_m_s
-        )
-    return Evasive(
-        arena=arena,
-        places=places,
-        headings=headings,
-        tick_s=tick_s,
-        seed=seed,
-        speed_m_s=targets.speed_m_s,
-        notice_range_m=mission.target_sensing_range_m,
-    )
-
-
-def _check_place(tracks: Tracks, targets: TrackTargets, arena: Arena) -> None:
-    fixes = zip(chain(*tracks.x_m), chain(*tracks.y_m), strict=True)
-    if any(edge_distance_m(arena, x, y) >= 0.0 for x, y in fixes):
-        return
-    origin = read_tracks(targets.file, max_gap_s=targets.max_gap_s).origin
-    hint = "an arena that holds its tracks"
-    if origin is not None:
-        hint = f"home: {{latitude_deg: {origin.latitude_deg:.7f}, longitude_deg: {origin.longitude_deg:.7f}}}"
-    raise InputError(f"{targets.file}: targets.file: got tracks that are nowhere inside the arena; allowed: {hint}")

@@ -22,10 +22,9 @@ from missions.mission import Mission
 from missions.observation import Observer
 from missions.options import LaunchOptions
 from missions.plan import coverage_floor
-from missions.problems import InputError
+from missions.problems import InputError, OutputError
 from missions.progress import ProgressBar
 from missions.report import PACKAGES, as_json, as_table, make_report, versions
-from vehicle_sim.tracks import TracksError
 
 if TYPE_CHECKING:
     from missions.recording import Recorder
@@ -36,8 +35,9 @@ DONE, FAILED, STOPPED = 0, 1, 130
 class StopRequest:
     """Ctrl-C, once: come home. A second time: at once (KeyboardInterrupt)."""
 
-    def __init__(self) -> None:
+    def __init__(self, console: Console) -> None:
         self.asked = False
+        self._console = console
 
     @contextmanager
     def listening(self) -> Iterator[StopRequest]:
@@ -52,40 +52,82 @@ class StopRequest:
         if self.asked:
             raise KeyboardInterrupt
         self.asked = True
+        self._console.print("Stopping: the swarm comes home and lands. Ctrl-C again stops at once.")
 
 
 def launch(mission: Mission, *, options: LaunchOptions) -> int:
     """Fly a mission to its report and recording. Returns the exit code.
 
     Raises:
-        InputError: what only a launch can find out is wrong (unreadable tracks, no recorder installed).
+        InputError: what only a launch can find out is wrong (no recorder installed, a file that cannot be written).
     """
     console = Console(stderr=options.report == "-")
-    metrics, request = Metrics(), StopRequest()
-    with ExitStack() as stack:
-        bus = stack.enter_context(open_local_bus())
-        try:
-            flight = Flight(mission, bus)
-        except TracksError as error:
-            raise InputError(str(error)) from error
-        observers: list[Observer] = [metrics]
-        if options.record is not None or options.view:
-            observers.append(stack.enter_context(recorder_of(flight, options)))
-        bar = ProgressBar(console, duration_s=mission.duration_s, tick_s=mission.tick_s)
-        observers.append(stack.enter_context(bar))
-        stack.enter_context(request.listening())
+    _check_files(options)
+    metrics, request = Metrics(), StopRequest(console)
+    with open_local_bus() as bus, request.listening():
+        flight = Flight(mission, bus)
         began_s = time.monotonic()
-        flight.run(pace=_pace(mission, options), observers=observers, stop=lambda: request.asked)
-        wall_s = time.monotonic() - began_s
-    report = make_report(flight, metrics, wall_s=wall_s, recording=options.record)
-    console.print(as_table(report))
+        kept = _fly(flight, metrics, request, console, options)
+        report = make_report(flight, metrics, wall_s=time.monotonic() - began_s, recording=options.record)
     if options.report == "-":
         sys.stdout.write(as_json(report))
     elif options.report is not None:
         Path(options.report).write_text(as_json(report), encoding="utf-8")
+    console.print(as_table(report))
     if request.asked:
         return STOPPED
-    return DONE if flight.complete else FAILED
+    return DONE if flight.complete and kept else FAILED
+
+
+def _fly(flight: Flight, metrics: Metrics, request: StopRequest, console: Console, options: LaunchOptions) -> bool:
+    """Fly, with everybody watching who should. Returns whether all was kept that was to be kept."""
+    mission = flight.mission
+    kept = True
+    with ExitStack() as stack:
+        observers: list[Observer] = [metrics]
+        recorder = recorder_of(flight, options) if options.record is not None or options.view else None
+        if recorder is not None:
+            try:
+                recorder.__enter__()
+            except OutputError as error:
+                raise InputError(str(error)) from error
+            observers.append(recorder)
+        bar = ProgressBar(console, duration_s=mission.duration_s, tick_s=mission.tick_s)
+        observers.append(stack.enter_context(bar))
+        try:
+            flight.run(pace=_pace(mission, options), observers=observers, stop=lambda: request.asked)
+        finally:
+            kept = recorder is None or _closed(recorder, metrics, flight)
+    if request.asked and not flight.complete:
+        flown_s = flight.ticks_flown * mission.tick_s
+        metrics.fault(flight.clock_s, None, f"stopped by Ctrl-C after {flown_s:.1f} s of {mission.duration_s:g} s")
+    return kept
+
+
+def _closed(recorder: Recorder, metrics: Metrics, flight: Flight) -> bool:
+    """Close the recording; what went wrong with it is a fault of the mission's, not its end."""
+    try:
+        recorder.__exit__(None, None, None)
+    except OutputError as error:
+        metrics.fault(flight.clock_s, None, str(error))
+        return False
+    if recorder.dropped:
+        metrics.fault(flight.clock_s, None, f"the recorder was too slow: {recorder.dropped} ticks are missing")
+    return True
+
+
+def _check_files(options: LaunchOptions) -> None:
+    """What cannot be written is found out before takeoff."""
+    report = None if options.report in (None, "-") else Path(str(options.report))
+    if report is not None and options.record is not None and report.resolve() == options.record.resolve():
+        raise InputError(f"--report: got {report}, where the recording goes; allowed: another file")
+    if report is not None:
+        try:
+            report.open("a").close()
+        except OSError as error:
+            raise InputError(
+                f"--report: got {report}; allowed: a file that can be written ({error.strerror})"
+            ) from error
 
 
 def _pace(mission: Mission, options: LaunchOptions) -> Pace:
@@ -118,4 +160,5 @@ def recorder_of(flight: Flight, options: LaunchOptions) -> Recorder:
         ceiling_m=max(mission.agents.altitude.of_agent(uid) for uid in range(mission.agents.count)),
         coverage_floor=coverage_floor(mission),
     )
-    return Recorder(options.record, scene=scene, live=options.view, lossless=isinf(options.speed))
+    record = None if options.record is None else options.record.resolve()
+    return Recorder(record, scene=scene, live=options.view, lossless=isinf(options.speed))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from math import inf
+from math import hypot, inf
 
 from comms.status import Activity, AgentStatus, Level
 from missions.observation import Observation
@@ -12,6 +12,9 @@ from missions.observation import Observation
 MAX_FAULTS = 1000
 # A call that pauses for less than this is the same call: which of two tags is the nearest changes from tick to tick.
 CALL_PAUSE_S = 1.0
+# Two drones nearer than this, in every direction, are too near. Looked at now and then: it takes a while to get there.
+CLOSE_M = 1.0
+LOOK_EVERY_TICKS = 5
 
 
 @dataclass(slots=True)
@@ -57,6 +60,7 @@ class Metrics:
     _before: tuple[AgentStatus, ...] = ()
     _on_duty_before: bool = False
     _called_at_s: dict[tuple[int, int], float] = field(default_factory=dict)  # by (agent, target)
+    _close: set[tuple[int, int]] = field(default_factory=set)
 
     def observe(self, observation: Observation) -> None:
         """Count one tick."""
@@ -70,6 +74,11 @@ class Metrics:
             self._count_calls(observation)
         self._before, self._on_duty_before = observation.statuses, on_duty
 
+    def fault(self, time_s: float, agent: int | None, what: str) -> None:
+        """Note that something went wrong."""
+        if len(self.faults) < MAX_FAULTS:
+            self.faults.append(Fault(time_s, agent, what))
+
     def _count_calls(self, observation: Observation) -> None:
         for status in observation.statuses:
             for call in status.calls:
@@ -79,14 +88,37 @@ class Metrics:
                 self._called_at_s[key] = observation.time_s
 
     def _count_faults(self, observation: Observation) -> None:
-        was_lost = {status.uid for status in self._before if status.activity is Activity.LOST}
-        faults = [Fault(observation.time_s, None, e.text) for e in observation.events if e.level is Level.ERROR]
+        time_s, before = observation.time_s, dict(enumerate(self._before))
+        for event in observation.events:
+            if event.level is Level.ERROR:
+                self.fault(time_s, None, event.text)
         for status in observation.statuses:
             errors = [event.text for event in status.events if event.level is Level.ERROR]
-            if status.activity is Activity.LOST and status.uid not in was_lost and not errors:
-                errors = ["lost"]
-            faults += [Fault(observation.time_s, status.uid, text) for text in errors]
-        self.faults += faults[: MAX_FAULTS - len(self.faults)]
+            gone = status.activity is Activity.LOST or (
+                observation.mission_tick is not None and status.activity in (Activity.RETURNING, Activity.LANDED)
+            )
+            changed = status.uid not in before or before[status.uid].activity is not status.activity
+            if gone and changed and not errors:
+                errors = [f"leaves the mission: {status.activity.value}"]
+            for text in errors:
+                self.fault(time_s, status.uid, text)
+        if observation.mission_tick is not None and observation.mission_tick % LOOK_EVERY_TICKS == 0:
+            self._watch_separation(observation)
+
+    def _watch_separation(self, observation: Observation) -> None:
+        """Agents on one layer of air (there are more agents than layers) must keep apart by themselves."""
+        truths = observation.truths
+        for low in range(len(truths)):
+            x, y, z = truths[low].position_m
+            for high in range(low + 1, len(truths)):
+                other_x, other_y, other_z = truths[high].position_m
+                if abs(z - other_z) < CLOSE_M and hypot(x - other_x, y - other_y) < CLOSE_M:
+                    self._met(observation.time_s, low, high)
+
+    def _met(self, time_s: float, low: int, high: int) -> None:
+        if (low, high) not in self._close:
+            self._close.add((low, high))
+            self.fault(time_s, high, f"came within {CLOSE_M:g} m of agent {low}")
 
 
 def _owners(statuses: Sequence[AgentStatus]) -> dict[int, set[int]]:

@@ -30,6 +30,12 @@ class Allowed:
 
 Positive = Annotated[float, Field(gt=0)]
 NonNegative = Annotated[float, Field(ge=0)]
+# What a frame on the radio and an autopilot's local frame can hold, with room to spare.
+Extent = Annotated[float, Field(gt=0, le=50_000)]
+Span = Annotated[float, Field(ge=0, le=3600)]
+Charge = Annotated[float, Field(gt=0, lt=1_000_000)]
+Airspeed = Annotated[float, Field(ge=0, lt=100)]
+SpeedLimit = Annotated[float, Field(ge=0.1, le=100)]
 Bearing = Annotated[float, Field(ge=0, lt=360)]
 NAME = "a word of letters, digits, '_', '.' and '-', at most 64 long, that starts with a letter or digit"
 Name = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_.\-]{0,63}$"), Allowed(NAME)]
@@ -59,7 +65,7 @@ class Disc(Part):
 
     shape: Literal["disc"] = "disc"
     """The arena's shape."""
-    radius_m: Positive = 30.0
+    radius_m: Extent = 30.0
     """Radius of the disc."""
 
     @property
@@ -73,9 +79,9 @@ class Rectangle(Part):
 
     shape: Literal["rectangle"]
     """The arena's shape."""
-    width_m: Positive = 60.0
+    width_m: Extent = 60.0
     """Extent from west to east."""
-    height_m: Positive = 60.0
+    height_m: Extent = 60.0
     """Extent from south to north."""
 
     @property
@@ -119,7 +125,7 @@ class Sensing(Part):
 class AgentDeployment(Part):
     """Where agents start: at random places in a circle about home."""
 
-    radius_m: Positive = 15.0
+    radius_m: Annotated[float, Field(gt=0, le=5000)] = 15.0
     """Radius of the circle in which agents start."""
     spacing_m: NonNegative = 1.0
     """Least distance between two agents' starting places."""
@@ -128,7 +134,7 @@ class AgentDeployment(Part):
 class Altitude(Part):
     """One layer of air for each agent, so that paths may cross. Agent `uid` flies on layer `uid` modulo `layers`."""
 
-    base_m: Positive = 10.0
+    base_m: Annotated[float, Field(ge=2, le=500)] = 10.0
     """Height of the lowest layer above home."""
     layer_m: Positive = 2.0
     """Distance from one layer to the next."""
@@ -145,7 +151,7 @@ class Agents(Part):
 
     count: Annotated[int, Field(ge=1, le=250)] = 10
     """How many; a MAVLink system id is one byte."""
-    speed_m_s: Positive = 0.4
+    speed_m_s: Annotated[float, Field(ge=0.1, le=50)] = 0.4
     """Greatest speed at which agents follow and search."""
     sensing: Sensing = Sensing()
     """What an agent sees."""
@@ -205,8 +211,8 @@ class Radio(Part):
     """How far, horizontally, a frame is heard."""
     loss: Annotated[float, Field(ge=0, le=1)] = 0.0
     """Probability that a frame does not reach a receiver in range."""
-    latency_s: NonNegative = 0.0
-    """Delay of a frame beyond the one tick that every frame takes."""
+    latency_s: Annotated[float, Field(ge=0, le=60)] = 0.0
+    """Delay of a frame; none is heard before the next tick."""
 
 
 class Policy(Part):
@@ -226,15 +232,15 @@ class Policy(Part):
     """A helper sets out this long before it must."""
     commitment: bool = True
     """Whether a helper stays with the call it has answered."""
-    memory_s: NonNegative = 60.0
+    memory_s: Span = 60.0
     """How long a lost target is remembered at its predicted place."""
     explore: Literal["persistent-walk", "stale-first"] = "persistent-walk"
     """How idle agents search: a walk with a steady heading, or to the place not seen for longest."""
     standoff_m: NonNegative = 0.0
     """Distance kept to a followed target; 0: right above it."""
-    turn_time_s: NonNegative = 0.5
+    turn_time_s: Span = 0.5
     """Time an agent takes to turn (delta of eq. 13)."""
-    horizon_s: Positive = 20.0
+    horizon_s: Annotated[float, Field(gt=0, le=3600)] = 20.0
     """Losses further ahead are not foreseen, nor in other policies the places of targets unseen for longer."""
     tag_lease_s: Positive = 0.5
     """A claim of a target expires unless renewed within this time."""
@@ -247,37 +253,37 @@ class Policy(Part):
 class Limits(Part):
     """What a vehicle can do."""
 
-    speed_m_s: Positive = 10.0
+    speed_m_s: SpeedLimit = 10.0
     """Greatest horizontal speed."""
-    acceleration_m_s2: Positive = 2.5
+    acceleration_m_s2: SpeedLimit = 2.5
     """Greatest horizontal acceleration."""
-    climb_m_s: Positive = 2.5
+    climb_m_s: SpeedLimit = 2.5
     """Greatest speed upward."""
-    descent_m_s: Positive = 1.5
+    descent_m_s: SpeedLimit = 1.5
     """Greatest speed downward."""
-    tilt_deg: Annotated[float, Field(gt=0, le=80)] = 30.0
+    tilt_deg: Annotated[float, Field(ge=1, le=80)] = 30.0
     """Greatest lean."""
 
 
 class Wind(Part):
     """The wind, the same everywhere."""
 
-    speed_m_s: NonNegative = 0.0
+    speed_m_s: Airspeed = 0.0
     """Mean speed."""
     from_deg: Bearing = 0.0
     """Where it comes from, clockwise from north."""
-    gust_m_s: NonNegative = 0.0
+    gust_m_s: Airspeed = 0.0
     """Greatest change of speed by gusts."""
 
 
 class Battery(Part):
     """A vehicle's battery."""
 
-    capacity_mah: Positive = 5000.0
+    capacity_mah: Charge = 5000.0
     """Charge when full, in mAh."""
-    voltage_v: Positive = 12.6
+    voltage_v: Charge = 12.6
     """Voltage when full."""
-    hover_current_a: Positive = 20.0
+    hover_current_a: Charge = 28.0
     """Current in hover."""
 
 
@@ -286,7 +292,7 @@ class Vehicle(Part):
 
     kind: Literal["simulated", "ideal"] = "simulated"
     """`simulated`: flies as an airframe does; `ideal`: the same MAVLink, but follows setpoints exactly."""
-    boot_s: NonNegative = 2.0
+    boot_s: Annotated[float, Field(ge=0, le=120)] = 2.0
     """Time from power-on until the autopilot is ready to arm."""
     limits: Limits = Limits()
     """What the vehicle can do."""
@@ -329,3 +335,8 @@ class Mission(Part):
         """How far a target notices an agent: its own range, or else the agents'."""
         own = self.targets.sensing_range_m if isinstance(self.targets, MovingTargets) else None
         return self.agents.sensing.range_m if own is None else own
+
+
+def system_id(uid: int) -> int:
+    """The MAVLink system id of agent `uid`'s vehicle."""
+    return uid + 1

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from comms.arena import area_m2
 from comms.frames import GeoPoint, Vec3, geo_from_enu
-from missions.mission import Mission, MovingTargets
+from missions.mission import Mission, MovingTargets, system_id
 from missions.observation import Phase
 from missions.problems import shown
 from missions.rules import start_places
@@ -66,7 +66,7 @@ def _agents(mission: Mission) -> tuple[AgentPlan, ...]:
     assert places is not None, "a mission whose agents do not fit is no loaded mission"
     altitude, home = mission.agents.altitude, mission.home.place
     return tuple(
-        AgentPlan(uid, uid + 1, (x, y, altitude.of_agent(uid)), geo_from_enu(home, (x, y, 0.0)))
+        AgentPlan(uid, system_id(uid), (x, y, altitude.of_agent(uid)), geo_from_enu(home, (x, y, 0.0)))
         for uid, (x, y) in enumerate(places)
     )
 

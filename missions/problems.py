@@ -43,6 +43,10 @@ class InputError(ValueError):
     """What the user gave cannot be used; the error's text is what to tell them. Exit code 2."""
 
 
+class OutputError(RuntimeError):
+    """What was to be kept of a mission cannot be written; the mission itself is none the worse."""
+
+
 class MissionError(InputError):
     """A mission that cannot be flown; `problems` holds every mistake found, in the order of the file's lines."""
 

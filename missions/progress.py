@@ -27,6 +27,7 @@ class ProgressBar:
         )
         self._task = self._progress.add_task("prepare", total=duration_s, state="")
         self._tick_s = tick_s
+        self._duration_s = duration_s
 
     def __enter__(self) -> ProgressBar:
         self._progress.start()
@@ -47,7 +48,10 @@ class ProgressBar:
                 self._task, description="mission", completed=done_s, state=f"{done_s:5.0f} s  {_seen(observation)}"
             )
         else:
-            self._progress.update(self._task, description=observation.phase.value, state=_waiting_for(observation))
+            total = None if observation.phase is Phase.RETURN else self._duration_s
+            self._progress.update(
+                self._task, description=observation.phase.value, state=_waiting_for(observation), total=total
+            )
 
 
 def _seen(observation: Observation) -> str:
@@ -62,4 +66,4 @@ def _waiting_for(observation: Observation) -> str:
     if observation.phase is Phase.RETURN:
         return f"{landed}/{len(observation.statuses)} landed"
     up = sum(truth.position_m[2] > 1.0 for truth in observation.truths)
-    return f"{up}/{len(observation.truths)} in the air"
+    return f"{up}/{len(observation.truths)} off the ground"

@@ -91,7 +91,7 @@ def as_table(report: Report) -> Table:
     from rich.table import Table
 
     table = Table(
-        title=f"{report['mission']} · seed {report['seed']}", title_style="bold", title_justify="left", box=None
+        title=f"{report['mission']}, seed {report['seed']}", title_style="bold", title_justify="left", box=None
     )
     table.add_column(style="dim")
     table.add_column()
@@ -114,7 +114,7 @@ def _lines(report: Report) -> Mapping[str, str]:
         "radio": f"{radio['sent']} frames sent, {radio['delivered']} delivered, {radio['out_of_range']} out of range, "
         f"{radio['lost']} lost, {radio['bytes'] / 1e6:.1f} MB",
         "mavlink": f"{mavlink['sent']} sent, {mavlink['received']} received, {mavlink['bad']} bad",
-        "time": f"{timing['wall_s']:.1f} s, {timing['realtime_factor']} times real time",
+        "time": f"{timing['wall_s']:.1f} s, {timing['realtime_factor']} times real time from power-on to landed",
     }
     if report["recording"]:
         lines["recording"] = report["recording"]

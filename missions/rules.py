@@ -12,6 +12,8 @@ from missions.problems import Path, shown
 from vehicle_sim.placement import scatter
 
 _TOLERANCE = 1e-9
+HIGHEST_M = 500.0  # what pilots fly at most
+MOST_CELLS = 20_000  # of the arena, each as wide as the sensing range; every agent remembers when it was seen
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,6 +138,20 @@ def _tracks_exist(mission: Mission) -> str | None:
     return "a file that exists" if isinstance(targets, TrackTargets) and not targets.file.is_file() else None
 
 
+def _layers_are_low(mission: Mission) -> str | None:
+    altitude = mission.agents.altitude
+    top_m = max(altitude.of_agent(uid) for uid in range(mission.agents.count))
+    return None if top_m <= HIGHEST_M else f"less: the highest layer is at {shown(top_m)}, above {shown(HIGHEST_M)}"
+
+
+def _search_has_few_cells(mission: Mission) -> str | None:
+    area, side_m = mission.arena.area, mission.agents.sensing.range_m
+    cells = 4 * area.half_x_m * area.half_y_m / (side_m * side_m)
+    if mission.policy.explore != "stale-first" or cells <= MOST_CELLS:
+        return None
+    return "persistent-walk in an arena that is so large beside agents.sensing.range_m"
+
+
 _ARENA = ("arena", "arena.radius_m", "arena.width_m", "arena.height_m")
 
 RULES = (
@@ -144,6 +160,8 @@ RULES = (
     Rule("agents.deployment.radius_m", _ARENA, _agents_start_inside),
     Rule("targets.deployment.radius_m", _ARENA, _targets_start_inside),
     Rule("agents.deployment.spacing_m", ("agents.deployment.radius_m", "agents.count", "seed"), _agents_fit),
+    Rule("agents.altitude.layer_m", ("agents.altitude.base_m", "agents.count"), _layers_are_low),
+    Rule("policy.explore", ("agents.sensing.range_m", *_ARENA), _search_has_few_cells),
     Rule("radio.range_m", ("agents.sensing.range_m",), _mates_hear_beyond_sight),
     Rule("radio.loss", ("radio.mode",), _ideal_radio_loses_nothing),
     Rule("radio.latency_s", ("radio.mode",), _ideal_radio_is_prompt),

@@ -13,6 +13,7 @@ from missions.recording.columns import Rows
 from missions.recording.scene import Scene
 
 _STEP_S = 1.0
+_UNKNOWN = 0.0  # a battery nobody has heard of yet, beside others known; NaN is not equal to itself
 
 
 class Metrics:
@@ -57,7 +58,8 @@ class Telemetry:
         late = [(seen.tick_late_s,) for seen in block.observations]
         yield Rows("/telemetry/tick_late", block, _vectors(late, 1))
         block = block.every(_STEP_S)
-        yield Rows("/telemetry/battery", block, _vectors(block.batteries, self._n))
+        known = Block(block.scene, [s for s in block.observations if any(a.battery is not None for a in s.statuses)])
+        yield Rows("/telemetry/battery", known, _vectors(np.nan_to_num(known.batteries, nan=_UNKNOWN), self._n))
         yield Rows("/telemetry/altitude", block, _vectors(block.positions_m[..., 2], self._n))
         yield Rows("/telemetry/speed", block, _vectors(block.speeds_m_s, self._n))
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from types import TracebackType
 
 from missions.observation import Observation
+from missions.problems import OutputError
 from missions.recording.block import Block
 from missions.recording.blueprint import blueprint
 from missions.recording.charts import Metrics, Telemetry
@@ -32,7 +33,7 @@ _LAYERS = (SeenGround, Swarm, Targets, Relations, Lanes, EventLog, Metrics, Tele
 _log = logging.getLogger(__name__)
 
 
-class RecordingError(RuntimeError):
+class RecordingError(OutputError):
     """The recorder failed; the mission did not. The cause says why."""
 
 

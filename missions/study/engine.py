@@ -21,6 +21,7 @@ from comms.chance import PLACE_AGENT, PLACE_TARGET
 from missions import compose
 from missions.mission import Mission, TrackTargets
 from missions.study.loop import EVASIVE, RANDOM, REPLAY, STATIC, Flock, Kept, Said, Setup, fly
+from missions.targets import herd
 from swarm_agent.bcmommt.belief import FAR, NEVER, NOBODY, Table, cell_columns, cell_rows
 from swarm_agent.bcmommt.params import Params
 from vehicle_sim.placement import heading
@@ -135,18 +136,18 @@ def _setup(mission: Mission, start_tick: int) -> Setup:
     ticks = max(1, round(mission.duration_s / mission.tick_s))
     homes = np.array(compose.deployment(mission))
     headings = np.array([heading(who=uid, seed=seed, purpose=PLACE_AGENT) for uid in range(mission.agents.count)])
-    herd = compose.herd(mission)
-    places = np.array([(0.0, 0.0) if place is None else place for place in herd.places])
+    targets_now = herd(mission)
+    places = np.array([(0.0, 0.0) if place is None else place for place in targets_now.places])
     target_headings = np.array([heading(who=j, seed=seed, purpose=PLACE_TARGET) for j in range(len(places))])
     tracks = np.zeros((0, len(places), 2))
     speed, motion = 0.0, REPLAY
     if isinstance(targets, TrackTargets):
         tracks = np.full((ticks, len(places), 2), np.nan)
         for tick in range(ticks):
-            for j, place in enumerate(herd.places):
+            for j, place in enumerate(targets_now.places):
                 if place is not None:
                     tracks[tick, j] = place
-            herd.advance(tick, (), ())
+            targets_now.advance(tick, (), ())
     else:
         speed, motion = targets.speed_m_s, _MOTIONS[targets.motion]
     return Setup(
@@ -171,7 +172,7 @@ def _setup(mission: Mission, start_tick: int) -> Setup:
 
 
 def _herd_size(mission: Mission) -> int:
-    return len(compose.herd(mission).places)
+    return len(herd(mission).places)
 
 
 def _tables(params: Params, m: int, n: int) -> Table:

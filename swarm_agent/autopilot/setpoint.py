@@ -14,13 +14,14 @@ VELOCITY_ONLY = 0xDC7  # ignore position, acceleration, yaw and yaw rate
 # A vehicle follows its climb setpoint about 0.8 s late (recorded ArduCopter 4.5.5 SITL); with that lag this gain is
 # damped by 0.8.
 HOLD_GAIN_PER_S = 0.5
+ROUNDING = 1e-9  # a velocity cut to the limit by others is not cut again
 
 
 def limit_speed(velocity_m_s: tuple[float, float], *, max_speed_m_s: float) -> tuple[float, float] | None:
     """The velocity, shortened to `max_speed_m_s` if it is faster; None if it holds no number."""
     x, y = velocity_m_s
     speed = hypot(x, y)
-    if speed <= max_speed_m_s:
+    if speed <= max_speed_m_s * (1.0 + ROUNDING):
         return velocity_m_s
     if not isfinite(speed):
         return None

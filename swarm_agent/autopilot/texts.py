@@ -7,6 +7,7 @@ from comms.status import Event, Level
 
 CHUNK_CHARACTERS = 50  # a chunk that is shorter is the last one of its text
 MAX_CHUNKS = 8
+REFUSALS = ("PreArm:", "Arm:")
 
 # MAV_SEVERITY 0 (emergency) to 7 (debug).
 LEVELS = (Level.ERROR,) * 4 + (Level.WARNING,) + (Level.INFO,) * 3
@@ -23,14 +24,22 @@ class TextAssembler:
         """The text this message completes, if it completes one."""
         text = clean(message.text)
         if message.id == 0:
-            return Event(level_of(message.severity), text) if text else None
+            return event_of(message.severity, text)
         if message.id != self._id:
             self._id, self._chunks = message.id, []
         self._chunks.append(message.text)
         if len(message.text) == CHUNK_CHARACTERS and len(self._chunks) < MAX_CHUNKS:
             return None
         text, self._id, self._chunks = clean("".join(self._chunks)), 0, []
-        return Event(level_of(message.severity), text) if text else None
+        return event_of(message.severity, text)
+
+
+def event_of(severity: int, text: str) -> Event | None:
+    """The text as an event. A refusal to arm says CRITICAL, but is asked again: it is a warning until given up."""
+    if not text:
+        return None
+    level = level_of(severity)
+    return Event(Level.WARNING if text.startswith(REFUSALS) and level is Level.ERROR else level, text)
 
 
 def level_of(severity: int) -> Level:

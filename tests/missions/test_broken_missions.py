@@ -66,11 +66,18 @@ CASES: dict[str, tuple[str, list[str]]] = {
     "a full turn": ("name: m\nvehicle: {wind: {from_deg: 360}}\n", [
         ":2: vehicle.wind.from_deg: got 360; allowed: a number from 0 to below 360",
     ]),
-    "a half-open range": ("name: m\nvehicle: {limits: {tilt_deg: 0}}\n", [
-        ":2: vehicle.limits.tilt_deg: got 0; allowed: a number above 0, at most 80",
+    "a half-open range": ("name: m\npolicy: {horizon_s: 0}\n", [
+        ":2: policy.horizon_s: got 0; allowed: a number above 0, at most 3600",
     ]),
     "negative wind": ("name: m\nvehicle: {wind: {speed_m_s: -1}}\n", [
-        ":2: vehicle.wind.speed_m_s: got -1; allowed: a number, 0 or more",
+        ":2: vehicle.wind.speed_m_s: got -1; allowed: a number from 0 to below 100",
+    ]),
+    "layers above what pilots fly": ("name: m\nagents: {count: 7, altitude: {base_m: 490}}\n", [
+        ":2: agents.altitude.layer_m: got 2; allowed: less: the highest layer is at 502, above 500",
+    ]),
+    "a search of too many cells": ("name: m\narena: {radius_m: 2000}\npolicy: {explore: stale-first}\n", [
+        ':3: policy.explore: got "stale-first"; '
+        "allowed: persistent-walk in an arena that is so large beside agents.sensing.range_m",
     ]),
     "below zero where null is allowed": ("name: m\ntargets: {sensing_range_m: -1}\n", [
         ":2: targets.sensing_range_m: got -1; allowed: a number above 0, or null",

@@ -82,9 +82,14 @@ def test_check_says_ok(capsys: pytest.CaptureFixture[str]) -> None:
     assert printed.err == ""
 
 
-def test_check_takes_overrides(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["check", "baboons", "--set", f"targets.file={__file__}"]) == DONE
+def test_check_takes_overrides_and_reads_the_tracks(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    tracks = tmp_path / "tracks.csv"
+    tracks.write_text("t,id,x,y\n0,a,0,0\n9,a,1,1\n")
+    assert main(["check", "baboons", "--set", f"targets.file={tracks}"]) == DONE
     assert capsys.readouterr().out == "baboons: ok (8 agents, tracks targets)\n"
+    tracks.write_text("t,id,x,y\n0,a,0,zz\n")
+    assert main(["check", "baboons", "--set", f"targets.file={tracks}"]) == BAD_INPUT
+    assert "y is 'zz'" in capsys.readouterr().err
 
 
 def test_schema_prints_the_schema(capsys: pytest.CaptureFixture[str]) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from comms.status import Activity, AgentStatus, Event, HelpCallStatus, Level
 from missions.coverage import Coverage
 from missions.metrics import Metrics
-from missions.observation import Observation, Phase
+from missions.observation import AgentTruth, Observation, Phase
 
 
 def status(
@@ -86,5 +86,34 @@ def test_faults_are_told_once_each_with_their_agent() -> None:
     lost = AgentStatus(uid=1, activity=Activity.LOST)
     crash = AgentStatus(uid=0, activity=Activity.LOST, events=(Event(Level.ERROR, "arming refused"),))
     metrics = fly((status(0), status(1)), (crash, lost), (crash.__class__(uid=0, activity=Activity.LOST), lost))
-    assert [(fault.agent, fault.what) for fault in metrics.faults] == [(0, "arming refused"), (1, "lost")]
+    assert [(fault.agent, fault.what) for fault in metrics.faults] == [
+        (0, "arming refused"),
+        (1, "leaves the mission: lost"),
+    ]
     assert metrics.tick_late_s_max == 0.02
+
+
+def test_an_agent_that_lands_during_the_mission_is_a_fault() -> None:
+    metrics = fly((status(0),), (status(0, activity=Activity.RETURNING),), (status(0, activity=Activity.LANDED),))
+    assert [fault.what for fault in metrics.faults] == ["leaves the mission: returning", "leaves the mission: landed"]
+
+
+def test_two_drones_that_come_too_close_are_a_fault_once() -> None:
+    metrics = Metrics()
+    for tick, gap in enumerate([5.0, 0.9, 0.8, 5.0, 0.7]):
+        metrics.observe(
+            Observation(
+                tick=5 * tick,
+                time_s=0.5 * tick,
+                mission_tick=5 * tick,
+                phase=Phase.MISSION,
+                statuses=(status(0), status(1), status(2)),
+                truths=tuple(
+                    AgentTruth(place, (0.0, 0.0, 0.0), 0.0) for place in [(0, 0, 10), (gap, 0, 10.5), (0, 0, 12)]
+                ),
+                targets=(),
+            )
+        )
+    assert [(fault.time_s, fault.agent, fault.what) for fault in metrics.faults] == [
+        (0.5, 1, "came within 1 m of agent 0")
+    ]
