@@ -5,6 +5,8 @@ Algorithm 1.
 
     params      the constants of section 3 and 6, by name and unit
     belief      what one agent knows: the table, and how seeing and hearing fill it
+    profiles    how things draw an agent (figure 1), and the bound on the following distance (eq. 12)
+    prediction  predictive tracking: targets out of sight that still count (section 4.1)
     tags        "read the tag, compare the distance": who owns a target (section 4.1, definition 3)
     loss        when a tag will be lost (section 4.2.1, eq. 10)
     reach       how long a helper needs (eq. 11, eq. 13)
@@ -12,6 +14,8 @@ Algorithm 1.
     modes       follow, help, explore (figure 3)
     behaviors   where to fly in each mode
     step        Algorithm 1, one pass of its loop
+
+Eq. 2, the rules of section 4.1, and what the paper compares with are in `swarm_agent.policies`.
 
 The rules are inside what numba compiles, without its decorator: loops and `if`s, + - * / and sqrt, columns that are
 lists here and arrays in a study. Where they depart from the text a comment begins with `PAPER:` and says why.
