@@ -9,6 +9,7 @@ PEERS := .venv-peers
 run: $(VENV)/ground.done
 	@mkdir -p out
 	$(BIN)/swarm launch quickstart --record out/quickstart.rrd --report out/quickstart.json
+	@echo "Look at it: $(BIN)/rerun out/quickstart.rrd"
 
 test: check
 	$(BIN)/python -m pytest -n 2 -m "not slow" tests

@@ -185,6 +185,7 @@ def _parser() -> argparse.ArgumentParser:
         epilog=_TOP,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
+    parser.add_argument("--version", action="version", version=f"%(prog)s {_version()}")
     verbs = parser.add_subparsers(title="verbs", metavar="VERB", required=True)
 
     flying = _verb(verbs, "launch", launch, "fly a mission", _LAUNCH)
@@ -207,6 +208,15 @@ def _parser() -> argparse.ArgumentParser:
 
     _verb(verbs, "schema", schema, "print the JSON Schema of missions, for editors", _SCHEMA)
     return parser
+
+
+def _version() -> str:
+    from importlib.metadata import PackageNotFoundError, version
+
+    try:
+        return version("swarm-mission-stack")
+    except PackageNotFoundError:
+        return "(not installed)"
 
 
 def _verb(

@@ -17,7 +17,7 @@ try:
     import rerun as _rerun  # noqa: F401
 except ModuleNotFoundError as missing:
     raise ModuleNotFoundError(
-        f"recording needs the `ground` extra: pip install 'swarm-mission-stack[ground]' (no module {missing.name!r})",
+        f"recording needs {missing.name}, which the `ground` extra installs: pip install '.[ground]'",
         name=missing.name,
     ) from missing
 

@@ -73,7 +73,7 @@ CASES: dict[str, tuple[str, list[str]]] = {
         ":2: vehicle.wind.speed_m_s: got -1; allowed: a number from 0 to below 100",
     ]),
     "layers above what pilots fly": ("name: m\nagents: {count: 7, altitude: {base_m: 490}}\n", [
-        ":2: agents.altitude.layer_m: got 2; allowed: less: the highest layer is at 502, above 500",
+        ":2: agents.altitude.layer_m: got 2 (the default); allowed: less: the highest layer is at 502, above 500",
     ]),
     "a search of too many cells": ("name: m\narena: {radius_m: 2000}\npolicy: {explore: stale-first}\n", [
         ':3: policy.explore: got "stale-first"; '

@@ -243,6 +243,18 @@ def test_a_report_on_standard_output_is_json_alone(capsys: pytest.CaptureFixture
     assert "coverage" in captured.err
 
 
+@pytest.mark.parametrize("option", ["--report", "--record"])
+def test_what_cannot_be_written_is_found_out_before_takeoff(option: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert launch("narrow", option, "/proc/nothing") == 2
+    assert "/proc/nothing" in capsys.readouterr().err
+
+
+def test_report_and_recording_are_two_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    same = str(tmp_path / "same")
+    assert launch("narrow", "--report", same, "--record", same) == 2
+    assert "allowed: another file" in capsys.readouterr().err
+
+
 def test_unreadable_tracks_are_bad_input(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     tracks = tmp_path / "tracks.csv"
     tracks.write_text("t,id,x,y\n0,a,zero,0\n")
@@ -261,6 +273,16 @@ def test_tracks_of_another_place_tell_where_home_must_be(tmp_path: Path, capsys:
         f"{tracks}: targets.file: got tracks that are nowhere inside the arena; "
         "allowed: home: {latitude_deg: 45.2500000, longitude_deg: 10.5000000}\n"
     )
+
+
+def test_the_same_mission_gives_the_same_recording(tmp_path: Path) -> None:
+    pytest.importorskip("rerun")
+    for name in ("first", "second"):
+        assert launch("narrow", "--duration", "5", "--record", str(tmp_path / f"{name}.rrd")) == 0
+    compare = ["rerun", "rrd", "compare", "--unordered", str(tmp_path / "first.rrd"), str(tmp_path / "second.rrd")]
+    compare[0] = str(Path(sys.executable).with_name("rerun"))
+    result = subprocess.run(compare, capture_output=True, text=True, check=False)
+    assert result.returncode == 0, result.stderr[-2000:]
 
 
 def test_ctrl_c_lands_the_swarm_and_still_reports(tmp_path: Path) -> None:
