@@ -80,8 +80,8 @@ def _findings(results: Results, points: Sequence[Point], check: Check) -> Iterat
         elif check.expect == "closer":
             yield _closer(one, two, about, point_words(other, keys))
         else:
-            same = one.words if point is other else point_words(other, keys)
-            yield _difference(one, two, about, same, check)
+            differing = [key for key in keys if dict(point.labels)[key] != dict(other.labels)[key]]
+            yield _difference(one, two, about, point_words(other, differing), check)
 
 
 class _Side:
@@ -114,7 +114,7 @@ class _Side:
 
 def shown_estimate(quantity: Quantity, told: Estimate) -> str:
     """A mean and its interval: "93.1 % ± 0.4"."""
-    return f"{quantity.shown(told.mean)} ± {quantity.spread(told.half)}"
+    return quantity.with_spread(told.mean, told.half)
 
 
 def _against_value(side: _Side, about: str, check: Check) -> Finding:
@@ -137,9 +137,8 @@ def _difference(one: _Side, two: _Side, about: str, other: str, check: Check) ->
     else:
         verdict = _verdict(told, *_allowed(check, 0.0))
     left = f"{_of(about)}{one.words} {one.shown}"
-    if other == one.words:  # the same point at another time, or another number of it
-        return Finding(f"{left}, {two.words} {two.shown}: {_change(one.quantity, told)}", verdict)
-    return Finding(f"{left}, {other} {two.shown}: {_change(one.quantity, told)}", verdict)
+    # Of the same point it is the words that differ: another time, or another number.
+    return Finding(f"{left}, {other or two.words} {two.shown}: {_change(one.quantity, told)}", verdict)
 
 
 def _closer(one: _Side, two: _Side, about: str, other: str) -> Finding:

@@ -65,7 +65,8 @@ def fly_paper(options: StudyOptions, *, flyer: Flyer | None = None) -> int:
     folder = options.out or OUT / "paper"
     flyer = flyer or _flyer(options)
     whole: list[Results] = []
-    for name in bundled_studies():
+    # The paper's own figures first.
+    for name in sorted(bundled_studies(), key=lambda name: (not name.startswith("figure"), name)):
         results = _flown(name, options, folder / name, console, flyer)
         if results is not None:
             write_study(results, folder / name)

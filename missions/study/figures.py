@@ -16,6 +16,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Canvas
+from matplotlib.patheffects import withStroke
 
 from missions.plan import coverage_floor
 from missions.study.metrics import QUANTITIES, Quantity, Window
@@ -24,12 +25,13 @@ from missions.study.points import POLICY, Point, matches
 from missions.study.results import Results
 from missions.study.statistics import estimate, estimates
 from missions.study.store import write_whole
-from missions.study.style import DIM, STYLE, line_colors, marker, percent_axis
+from missions.study.style import DIM, STYLE, line_colors, marker, percent_axis, policy_colors
 from missions.study.words import axis_words, point_words, telling_keys
 
 TIME = "time"
 _WIDTH_IN, _HEIGHT_IN = 6.4, 4.1
 _PANEL_IN = 4.3
+_FEW_FLOORS = 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +67,7 @@ def draw(results: Results, figure: Figure) -> Canvas | None:
         canvas.suptitle(figure.title, x=0.01, ha="left", weight="bold", size=12)
         handles, names = _legend(grid)
         if len(names) > 1:
-            canvas.legend(handles, names, loc="outside lower center", ncols=min(len(names), 4 * len(panels)))
+            canvas.legend(handles, names, loc="outside lower center", ncols=_columns(names, width))
     return canvas
 
 
@@ -104,16 +106,17 @@ def _lines(points: Sequence[Point], keys: Sequence[str], figure: Figure) -> tupl
     groups: dict[str, list[Point]] = {}
     for point in points:
         groups.setdefault(point_words(point, keys), []).append(point)
-    colors = line_colors(len(groups), ordered=POLICY not in keys)
+    policies = [_policy(group) for group in groups.values()]
+    colors = policy_colors(policies) if POLICY in keys or not keys else line_colors(len(groups))
     lines = []
     for number, (name, group) in enumerate(groups.items()):
         if figure.x != TIME:
             group = sorted(group, key=lambda point: float(point.values[figure.x]))
-        lines.append(Line(name or _only_name(group), colors[number], marker(number), tuple(group)))
+        lines.append(Line(name or _policy(group), colors[number], marker(number), tuple(group)))
     return tuple(lines)
 
 
-def _only_name(points: Sequence[Point]) -> str:
+def _policy(points: Sequence[Point]) -> str:
     return str(dict(points[0].labels)[POLICY])
 
 
@@ -160,23 +163,27 @@ def _by_key(results: Results, figure: Figure, axes: Axes, line: Line) -> None:
 
 def _floors(figure: Figure, axes: Axes, panel: Panel) -> None:
     """What agents standing at random places would cover."""
-    drawn: set[tuple[float, ...]] = set()
+    floors_of: dict[tuple[float, ...], Line] = {}
     for line in panel.lines:
         floors = [floor_of(point, figure) for point in line.points]
         known = tuple(round(floor, 6) for floor in floors if floor is not None)
-        if not known or known in drawn:
-            continue
-        drawn.add(known)
-        if figure.x == TIME:
-            axes.axhline(known[0], color=DIM, linestyle=(0, (4, 3)), linewidth=1.0, zorder=1)
-        else:
-            x = [float(point.values[figure.x]) for point in line.points]
-            axes.plot(x, known, color=DIM, linestyle=(0, (4, 3)), linewidth=1.0, zorder=1)
-        where = axes.get_xlim()[1] if figure.x == TIME else x[-1]
-        said = f"static placement {QUANTITIES[figure.y].shown(known[-1])}"
-        axes.annotate(
-            said, (where, known[-1]), (-2, 3), textcoords="offset points", ha="right", va="bottom", size=8, color=DIM
-        )
+        if known:
+            floors_of.setdefault(known, line)
+    for known, line in floors_of.items():
+        x = list(axes.get_xlim()) if figure.x == TIME else [float(point.values[figure.x]) for point in line.points]
+        y = known * 2 if figure.x == TIME else known
+        # Where every line has a floor of its own, it is told by the line's color.
+        shade = {"color": DIM} if len(floors_of) <= _FEW_FLOORS else {"color": line.color, "alpha": 0.4}
+        axes.plot(x, y, linestyle=(0, (4, 3)), linewidth=1.0, zorder=1, **shade)
+        if len(floors_of) <= _FEW_FLOORS:
+            _note(axes, f"static placement {QUANTITIES[figure.y].shown(known[-1])}", (x[-1], known[-1]))
+    if len(floors_of) > _FEW_FLOORS:
+        _note(axes, "dashed: static placement", (axes.get_xlim()[1], 0.0))
+
+
+def _note(axes: Axes, text: str, place: tuple[float, float]) -> None:
+    note = axes.annotate(text, place, (-2, 3), textcoords="offset points", ha="right", va="bottom", size=8, color=DIM)
+    note.set_path_effects([withStroke(linewidth=2.5, foreground="white")])
 
 
 def floor_of(point: Point, figure: Figure) -> float | None:
@@ -190,8 +197,14 @@ def floor_of(point: Point, figure: Figure) -> float | None:
 
 def _y_words(figure: Figure) -> str:
     quantity: Quantity = QUANTITIES[figure.y]
-    words = f"{quantity.label} ({quantity.unit})"
+    words = quantity.label if quantity.is_share else f"{quantity.label} ({quantity.unit})"
     return words if figure.x == TIME else f"mean {words}"
+
+
+def _columns(names: Sequence[str], width_in: float) -> int:
+    """How many columns of a legend fit beside each other."""
+    each_in = 0.55 + 0.075 * max(map(len, names))
+    return max(1, min(len(names), int(width_in / each_in)))
 
 
 def _legend(grid: Any) -> tuple[list[Any], list[str]]:

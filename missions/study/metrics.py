@@ -51,6 +51,12 @@ class Quantity:
             return f"{100 * value:.1f} %"
         return f"{value:.3g} {self.unit}".rstrip()
 
+    def with_spread(self, value: float, half: float) -> str:
+        """A mean and half its interval: "93.1 % ± 0.4", "3.2 ± 0.5 per run"."""
+        if self.is_share:
+            return f"{self.shown(value)} ± {self.spread(half)}"
+        return f"{value:.3g} ± {self.spread(half)} {self.unit}".rstrip()
+
     def spread(self, half: float) -> str:
         """Half an interval, without the unit."""
         if half != half or isinf(half):

@@ -48,7 +48,7 @@ def write_index(studies: Sequence[Results], folder: Path, *, title: str) -> Path
 
 def claims_table(judgements: Iterable[Judgement]) -> list[str]:
     """Every claim with what was measured and what follows, as a Markdown table."""
-    rows = ["| Where | The paper says | Policy | Measured | Verdict |", "|---|---|---|---|---|"]
+    rows = ["| Where | Claim | Policy | Measured | Verdict |", "|---|---|---|---|---|"]
     for judgement in judgements:
         claim = judgement.claim
         several = len(judgement.findings) > 1

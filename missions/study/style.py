@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import matplotlib as mpl
@@ -11,6 +12,8 @@ from matplotlib.ticker import PercentFormatter
 INK, DIM, GRID = "#1B2430", "#8A94A3", "#E6E9EE"
 # Told apart by eyes of every kind, and in gray; in the order of use.
 _KINDS = ("#0B5FD0", "#E4720D", "#0A9A74", "#A33EA1", "#C9304B", "#6B7280", "#B8860B", "#1098AD")
+# Policies that several figures show have the same color in all of them.
+_POLICIES = {"basic": 0, "printed": 1, "default": 2}
 _ORDERED = "viridis_r"
 _MARKERS = "osD^vPX*"
 
@@ -46,9 +49,16 @@ STYLE: Any = {
 }
 
 
-def line_colors(count: int, *, ordered: bool) -> list[Any]:
-    """Colors for so many lines: a scale where the lines have an order, such as radii, and otherwise plain kinds."""
-    if not ordered or count < 3:
+def policy_colors(names: Sequence[str]) -> list[str]:
+    """Colors for policies by name; those without a color of their own get one that is left."""
+    left = [color for number, color in enumerate(_KINDS) if number not in _POLICIES.values()]
+    others = [name for name in names if name not in _POLICIES]
+    return [_KINDS[_POLICIES[name]] if name in _POLICIES else left[others.index(name) % len(left)] for name in names]
+
+
+def line_colors(count: int) -> list[Any]:
+    """Colors for lines that have an order, such as radii: a scale; two are told apart better by plain kinds."""
+    if count < 3:
         return [_KINDS[number % len(_KINDS)] for number in range(count)]
     scale = mpl.colormaps[_ORDERED]
     return [scale(0.12 + 0.88 * number / (count - 1)) for number in range(count)]
