@@ -21,11 +21,14 @@ from missions import compose
 from missions.coverage import Coverage
 from missions.mission import Mission
 from missions.observation import AgentTruth, Observation, Observer, Phase, TargetTruth
-from swarm_agent.agent import Order, Output
+from swarm_agent.agent import Agent, Order, Output
 
 # A preparation or a return that takes longer than this has gone wrong, whatever the pilots say.
 PREPARE_LIMIT_S = 600.0
 RETURN_LIMIT_S = 1800.0
+# Between the last agent's arrival on its layer and the mission: an autopilot that is still ending its climb does not
+# follow yet.
+SETTLE_S = 2.0
 _ENDED = (Activity.LANDED, Activity.LOST)
 
 
@@ -52,6 +55,7 @@ class Flight:
         self._phase = Phase.PREPARE
         self._phase_began = 0
         self._ticks = 0
+        self._ready_since: int | None = None
         self._awaited = 0  # frames under way to the radios, due this tick
 
     @property
@@ -195,9 +199,17 @@ class Flight:
             waiting = [agent for agent, s in zip(self.agents, statuses, strict=True) if s.activity is not Activity.LOST]
             if not waiting or in_phase_s >= PREPARE_LIMIT_S:
                 return Phase.RETURN
-            return Phase.MISSION if all(agent.ready for agent in waiting) else Phase.PREPARE
+            return Phase.MISSION if self._settled(next_tick, waiting) else Phase.PREPARE
         nobody_left = all(self._has_ended(status) for status in statuses)
         return Phase.RETURN if self.complete or nobody_left else Phase.MISSION
+
+    def _settled(self, tick: int, agents: Sequence[Agent]) -> bool:
+        if not all(agent.ready for agent in agents):
+            self._ready_since = None
+            return False
+        if self._ready_since is None:
+            self._ready_since = tick
+        return (tick - self._ready_since) * self.mission.tick_s >= SETTLE_S
 
     def _has_ended(self, status: AgentStatus) -> bool:
         """Landed, or lost and lying on the ground: one that is lost in the air may yet come down."""

@@ -20,7 +20,7 @@ from vehicle_sim.wind import LocalWind
 
 CRITICAL, WARNING, INFO = 2, 4, 6  # STATUSTEXT severities
 
-STEP_S = {"simulated": 0.05, "ideal": 0.1}
+STEP_S = {"simulated": 0.05, "ideal": 1.0}
 LANDED_AFTER_S = 1.3  # on the ground until the land detector believes it (recorded)
 DISARMED_AFTER_S = 2.1  # on the ground until LAND and RTL disarm (recorded)
 PREARM_PERIOD_S = 30.0
