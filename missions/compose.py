@@ -12,8 +12,10 @@ from comms.session import Bus
 from missions.mission import Mission, TrackTargets, system_id
 from missions.rules import start_places
 from missions.targets import herd
+from missions.training.weights import BUNDLED, read_weights
 from swarm_agent.agent import Agent, AgentConfig
 from swarm_agent.autopilot import PilotConfig
+from swarm_agent.bcmommt.net import BLANK, Net
 from swarm_agent.bcmommt.params import Call, Capture, Explore, Gate, Params, Policy, Predictor
 from vehicle_sim.autopilot import SimulatedVehicle
 from vehicle_sim.battery import Battery
@@ -33,7 +35,7 @@ _POLICIES = {
     "b-cmommt": Policy.B_CMOMMT,
     "regions": Policy.REGIONS,
 }
-_PREDICTORS = {"none": Predictor.NONE, "direct": Predictor.DIRECT}
+_PREDICTORS = {"none": Predictor.NONE, "direct": Predictor.DIRECT, "learned": Predictor.LEARNED}
 _CALLS = {"predicted": Call.PREDICTED, "all_but_nearest": Call.ALL_BUT_NEAREST}
 _GATES = {"in_time": Gate.IN_TIME, "always": Gate.ALWAYS}
 _CAPTURES = {"worst_case": Capture.WORST_CASE, "intercept": Capture.INTERCEPT}
@@ -58,8 +60,13 @@ def pads(mission: Mission) -> tuple[GeoPoint, ...]:
 
 
 def params(mission: Mission) -> Params:
-    """The algorithm's constants."""
+    """The algorithm's constants.
+
+    Raises:
+        InputError: weights of the learned predictor that cannot be read.
+    """
     policy = mission.policy
+    pair_net, triple_net = _nets(mission)
     targets = mission.targets
     # Nobody knows how fast recorded animals can be; as fast as an agent is the worst case that can still be followed.
     target_speed = mission.agents.speed_m_s if isinstance(targets, TrackTargets) else targets.speed_m_s
@@ -84,7 +91,17 @@ def params(mission: Mission) -> Params:
         commitment=policy.commitment,
         explore=_EXPLORES[policy.explore],
         policy=_POLICIES[policy.name],
+        pair_net=pair_net,
+        triple_net=triple_net,
     )
+
+
+def _nets(mission: Mission) -> tuple[Net, Net]:
+    """The learned predictor's nets, for two tags and for three."""
+    if mission.policy.predictor != "learned":
+        return BLANK, BLANK
+    weights = read_weights(mission.policy.weights or BUNDLED)
+    return weights.pair.net, weights.triple.net
 
 
 def agents(mission: Mission, n_targets: int) -> list[Agent]:

@@ -31,7 +31,7 @@ LIBRARY = FilePath(__file__).parent / "library"
 P = TypeVar("P", bound=Part)
 
 _MAX_BYTES = 1_000_000
-_TRACKS_FILE: Path = ("targets", "file")
+_FILES: tuple[Path, ...] = (("targets", "file"), ("policy", "weights"))
 
 
 def bundled_names() -> list[str]:
@@ -122,12 +122,13 @@ def read_input(path: FilePath, *, source: str, what: str, bundled: Sequence[str]
 
 
 def _anchor(document: Document, folder: FilePath) -> None:
-    """Make a relative path of tracks absolute: from here on it means the same wherever the mission is used."""
-    file = document.value(_TRACKS_FILE)
-    if isinstance(file, str) and file:
-        if file.startswith("~/"):
-            file = os.path.expanduser(file)
-        document.values["targets"]["file"] = str((folder / file).absolute())
+    """Make relative paths absolute: from here on they mean the same wherever the mission is used."""
+    for section, key in _FILES:
+        file = document.value((section, key))
+        if isinstance(file, str) and file:
+            if file.startswith("~/"):
+                file = os.path.expanduser(file)
+            document.values[section][key] = str((folder / file).absolute())
 
 
 def _check(document: Document) -> tuple[Mission | None, list[Problem]]:

@@ -220,8 +220,10 @@ class Policy(Part):
 
     name: Literal["a-cmommt", "b-cmommt-basic", "b-cmommt", "regions"] = "b-cmommt"
     """The policy: Parker's force sum, the paper's section 4.1, its Algorithm 1, or regions after Jung & Sukhatme."""
-    predictor: Literal["direct", "none"] = "direct"
-    """Foresees when a target is lost: `direct` is eq. 10 of the paper, `none` foresees nothing."""
+    predictor: Literal["direct", "learned", "none"] = "direct"
+    """Foresees losses: `direct` is eq. 10 of the paper, `learned` its net for two and three tags, `none` nothing."""
+    weights: Annotated[Path | None, Field(strict=False), Allowed("null, or the path of a weights file")] = None
+    """Weights of the learned predictor, written by `swarm train`; none: those that come with the package."""
     call: Literal["predicted", "all_but_nearest"] = "all_but_nearest"
     """Which of its targets an agent calls help for: those it expects to lose, or all but the nearest."""
     answer_gate: Literal["in_time", "always"] = "always"

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from comms.arena import edge_distance_m
 from comms.chance import PLACE_AGENT
 from missions.mission import Mission, MovingTargets, TrackTargets
-from missions.problems import Path, shown
+from missions.problems import InputError, Path, shown
+from missions.training.weights import read_weights
 from vehicle_sim.placement import scatter
 
 _TOLERANCE = 1e-9
@@ -138,6 +139,17 @@ def _tracks_exist(mission: Mission) -> str | None:
     return "a file that exists" if isinstance(targets, TrackTargets) and not targets.file.is_file() else None
 
 
+def _weights_are_readable(mission: Mission) -> str | None:
+    file = mission.policy.weights
+    if file is None:
+        return None
+    try:
+        read_weights(file)
+    except InputError as error:
+        return f"null, or a weights file of swarm train ({error.__cause__})"
+    return None
+
+
 def _layers_are_low(mission: Mission) -> str | None:
     altitude = mission.agents.altitude
     top_m = max(altitude.of_agent(uid) for uid in range(mission.agents.count))
@@ -171,4 +183,5 @@ RULES = (
     Rule("vehicle.limits.speed_m_s", ("agents.speed_m_s",), _vehicles_keep_up),
     Rule("vehicle.wind.speed_m_s", ("vehicle.wind.gust_m_s", "vehicle.limits.speed_m_s"), _vehicles_beat_the_wind),
     Rule("targets.file", (), _tracks_exist),
+    Rule("policy.weights", (), _weights_are_readable),
 )

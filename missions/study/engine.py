@@ -23,6 +23,7 @@ from missions.mission import Mission, TrackTargets
 from missions.study.loop import EVASIVE, RANDOM, REPLAY, STATIC, Flock, Kept, Said, Setup, fly
 from missions.targets import herd
 from swarm_agent.bcmommt.belief import FAR, NEVER, NOBODY, Table, cell_columns, cell_rows
+from swarm_agent.bcmommt.net import Net
 from swarm_agent.bcmommt.params import Params
 from vehicle_sim.placement import heading
 
@@ -123,7 +124,7 @@ def trace(mission: Mission, *, seed: int, start_tick: int = 0) -> Trace:
 
 def _run(mission: Mission, seed: int, *, start_tick: int, keep_all: bool) -> Kept:
     mission = mission.model_copy(update={"seed": seed})
-    params = compose.params(mission)
+    params = _with_arrays(compose.params(mission))
     setup = _setup(mission, start_tick)
     m, n = len(setup.home_x), len(setup.target_x)
     kept = _kept(setup.ticks, m, n, keep_all)
@@ -173,6 +174,14 @@ def _setup(mission: Mission, start_tick: int) -> Setup:
 
 def _herd_size(mission: Mission) -> int:
     return len(herd(mission).places)
+
+
+def _with_arrays(params: Params) -> Params:
+    """The nets' weights as arrays, whose type does not tell how many they are."""
+    pair, triple = params.pair_net, params.triple_net
+    return params._replace(
+        pair_net=Net(np.array(pair.hidden), pair.bias), triple_net=Net(np.array(triple.hidden), triple.bias)
+    )
 
 
 def _tables(params: Params, m: int, n: int) -> Table:

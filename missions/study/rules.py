@@ -22,6 +22,7 @@ import swarm_agent.bcmommt.behaviors
 import swarm_agent.bcmommt.belief
 import swarm_agent.bcmommt.help
 import swarm_agent.bcmommt.loss
+import swarm_agent.bcmommt.net
 import swarm_agent.bcmommt.params
 import swarm_agent.bcmommt.prediction
 import swarm_agent.bcmommt.profiles
@@ -42,6 +43,7 @@ RULES: tuple[ModuleType, ...] = (
     comms.messages,
     vehicle_sim.sensing,
     vehicle_sim.targets,
+    swarm_agent.bcmommt.net,
     swarm_agent.bcmommt.params,
     swarm_agent.bcmommt.belief,
     swarm_agent.bcmommt.tags,

@@ -9,6 +9,7 @@ Algorithm 1.
     prediction  predictive tracking: targets out of sight that still count (section 4.1)
     tags        "read the tag, compare the distance": who owns a target (section 4.1, definition 3)
     loss        when a tag will be lost (section 4.2.1, eq. 10)
+    net         the same, learned: the net for two tags and the one for three
     reach       how long a helper needs (eq. 11, eq. 13)
     help        calls issued, and which call to answer (section 4.2.2)
     modes       follow, help, explore (figure 3)

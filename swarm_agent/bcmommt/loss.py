@@ -1,10 +1,11 @@
-"""When a tag will be lost: the direct prediction of section 4.2.1."""
+"""When a tag will be lost: the direct and the learned prediction of section 4.2.1."""
 
 from __future__ import annotations
 
 from math import sqrt
 
 from swarm_agent.bcmommt.belief import FAR, Table
+from swarm_agent.bcmommt.net import TAUGHT_S, forward, pair_inputs, triple_inputs
 from swarm_agent.bcmommt.params import Params, Predictor
 
 
@@ -15,8 +16,51 @@ def predict_losses(t: Table, p: Params, n_tags: int) -> None:
     """
     for j in range(len(t.tagged)):
         t.loss_in_s[j] = FAR
-    if n_tags >= 2 and p.predictor == Predictor.DIRECT:
+    if n_tags < 2:
+        return
+    if p.predictor == Predictor.LEARNED and n_tags <= 3:
+        _predict_learned(t, p, n_tags)
+    elif p.predictor != Predictor.NONE:
         _predict_direct(t, p, n_tags)
+
+
+def _predict_learned(t: Table, p: Params, n_tags: int) -> None:
+    """The net for two or three tags says when the first of them is lost: the same time for all, as in Algorithm 1."""
+    a = _tag_from(t, 0)
+    b = _tag_from(t, a + 1)
+    if n_tags == 2:
+        pair = pair_inputs(t.distance_m[a], t.distance_m[b], _gap(t, a, b), p.sensing_range_m)
+        after = forward(p.pair_net, pair) * TAUGHT_S
+    else:
+        c = _tag_from(t, b + 1)
+        triple = triple_inputs(
+            t.distance_m[a],
+            t.distance_m[b],
+            t.distance_m[c],
+            _gap(t, a, b),
+            _gap(t, a, c),
+            _gap(t, b, c),
+            p.sensing_range_m,
+        )
+        after = forward(p.triple_net, triple) * TAUGHT_S
+    if after <= p.horizon_s:
+        for j in range(len(t.tagged)):
+            if t.tagged[j]:
+                t.loss_in_s[j] = after
+
+
+def _tag_from(t: Table, start: int) -> int:
+    """The first tagged target from `start` on; there is one."""
+    j = start
+    while not t.tagged[j]:
+        j += 1
+    return j
+
+
+def _gap(t: Table, a: int, b: int) -> float:
+    """How far apart two targets are."""
+    dx, dy = t.x_m[a] - t.x_m[b], t.y_m[a] - t.y_m[b]
+    return sqrt(dx * dx + dy * dy)
 
 
 def _predict_direct(t: Table, p: Params, n_tags: int) -> None:

@@ -6,6 +6,7 @@ from enum import IntEnum
 from typing import NamedTuple
 
 from comms.arena import Arena
+from swarm_agent.bcmommt.net import BLANK, Net
 
 
 class Policy(IntEnum):
@@ -22,6 +23,7 @@ class Predictor(IntEnum):
 
     NONE = 0  # never: no help is called
     DIRECT = 1  # eq. 10
+    LEARNED = 2  # a net for two tags and one for three, eq. 10 above that
 
 
 class Call(IntEnum):
@@ -53,7 +55,10 @@ class Explore(IntEnum):
 
 
 class Params(NamedTuple):
-    """Everything the rules read that does not change during a mission. Distances in m, times in s, speeds in m/s."""
+    """Everything the rules read that does not change during a mission. Distances in m, times in s, speeds in m/s.
+
+    The nets are read by `Predictor.LEARNED` alone.
+    """
 
     arena: Arena
     tick_s: float
@@ -75,3 +80,5 @@ class Params(NamedTuple):
     commitment: bool
     explore: int
     policy: int = Policy.B_CMOMMT
+    pair_net: Net = BLANK
+    triple_net: Net = BLANK

@@ -105,7 +105,7 @@ CASES: dict[str, tuple[str, list[str]]] = {
     ]),
     # Choices, of values and of kinds of section.
     "no such predictor": ("name: m\npolicy: {predictor: perfect}\n", [
-        ':2: policy.predictor: got "perfect"; allowed: direct or none',
+        ':2: policy.predictor: got "perfect"; allowed: direct, learned or none',
     ]),
     "values that come later": (
         "name: m\nvehicle: {kind: link}\nradio: {mode: field}\npolicy: {name: shepherd}\n"
