@@ -78,6 +78,8 @@ def write_figure(results: Results, figure: Figure, folder: Path) -> list[Path]:
         return []
     written = []
     with mpl.rc_context(STYLE):
+        canvas.draw_without_rendering()
+        canvas.set_layout_engine("none")  # once is enough
         # Without the date, the same figure is the same file.
         for ending, metadata in (("png", {}), ("svg", {"Date": None})):
             out = BytesIO()

@@ -45,7 +45,7 @@ def on_cluster(address: str, fly: FlyPoint = fly_point, *, connect_s: float = 10
             waiting: dict[Any, Block] = {
                 client.submit(fly, block.point.mission, block.seeds, pure=False): block for block in blocks
             }
-            for future, flown in _results(as_completed(list(waiting), with_results=True)):
+            for future, flown in _results(as_completed(list(waiting), loop=client.loop, with_results=True)):
                 yield waiting[future], flown
 
     return landed

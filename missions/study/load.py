@@ -31,6 +31,7 @@ from missions.overrides import Override, Setting
 from missions.problems import InputError, Mark, MissionError, Path, Problem, any_of
 from missions.study.consistency import broken_rules
 from missions.study.model import Study
+from missions.study.pairs import NoOnePartnerError, pairs
 from missions.study.points import POLICY, Labels, Point, combinations
 
 STUDIES = LIBRARY / "studies"
@@ -149,6 +150,8 @@ class _Maker:
             made = self._made(mission, labels)
             if made is not None:
                 points.append(Point(number, labels, made))
+        if not self._problems:
+            self._check_claims(points)
         if self._problems or base is None:
             source = self._document.source
             raise MissionError(sorted(self._problems.values(), key=lambda problem: in_file_order(problem, source)))
@@ -180,6 +183,16 @@ class _Maker:
         except MissionError as error:
             self._problems |= {str(problem): problem for problem in error.problems}
             return None
+
+    def _check_claims(self, points: Sequence[Point]) -> None:
+        for number, claim in enumerate(self._study.claims):
+            for place, check in enumerate(claim.checks):
+                path: Path = ("claims", str(number), "checks", str(place), "than")
+                try:
+                    list(pairs(self._study, points, check))
+                except NoOnePartnerError as error:
+                    problem = Problem(self._document.mark(path), path, str(error), "what fits one point")
+                    self._problems[str(problem)] = problem
 
     def _settings(self, labels: Labels) -> list[Setting]:
         axis_of = {key: str(number) for number, axis in enumerate(self._study.sweep) for key in axis}

@@ -53,6 +53,10 @@ def estimate(values: Floats) -> Estimate:
 
 def estimates(table: Floats) -> tuple[Floats, Floats, Floats]:
     """Mean and ends of the interval for every column of a table of runs (R, S): three times (S)."""
+    if len(table) > 1 and not np.isnan(table).any():  # the same, many times as fast
+        mean: Floats = table.mean(axis=0)
+        half: Floats = student(len(table) - 1) * table.std(axis=0, ddof=1) / sqrt(len(table))
+        return mean, mean - half, mean + half
     columns = [estimate(column) for column in table.T]
     return (
         np.array([e.mean for e in columns]),
