@@ -28,6 +28,7 @@ format: $(VENV)/all.done
 
 bench: $(VENV)/all.done
 	$(BIN)/python -m tests.benchmarks
+	$(BIN)/python -m tests.benchmarks.study
 
 bench-peers: $(VENV)/all.done $(PEERS)/peers.done
 	$(PEERS)/bin/python -m tests.benchmarks.peers.run --study $(BIN)/python

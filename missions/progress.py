@@ -27,7 +27,7 @@ class ProgressBar:
         )
         self._task = self._progress.add_task("prepare", total=duration_s, state="")
         self._tick_s = tick_s
-        self._duration_s = duration_s
+        self._returning = False
 
     def __enter__(self) -> ProgressBar:
         self._progress.start()
@@ -48,10 +48,10 @@ class ProgressBar:
                 self._task, description="mission", completed=done_s, state=f"{done_s:5.0f} s  {_seen(observation)}"
             )
         else:
-            total = None if observation.phase is Phase.RETURN else self._duration_s
-            self._progress.update(
-                self._task, description=observation.phase.value, state=_waiting_for(observation), total=total
-            )
+            if observation.phase is Phase.RETURN and not self._returning:
+                self._returning = True
+                self._progress.reset(self._task, total=None)  # nobody knows how long it takes
+            self._progress.update(self._task, description=observation.phase.value, state=_waiting_for(observation))
 
 
 def _seen(observation: Observation) -> str:
