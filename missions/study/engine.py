@@ -72,7 +72,8 @@ class Runs:
 class Trace:
     """Everything of one run of T ticks, m agents, n targets: places in ENU meters, and who senses and tags whom.
 
-    agents (T, m, 2), targets (T, n, 2), tagged and sensed (T, m, n), mode (T, m) as `Mode` values, seen, present (T).
+    agents (T, m, 2), targets (T, n, 2), tagged and sensed (T, m, n) by the names that agents have for targets,
+    mode (T, m) as `Mode` values, seen, present (T).
     """
 
     agents: Floats
@@ -124,15 +125,24 @@ def trace(mission: Mission, *, seed: int, start_tick: int = 0) -> Trace:
 
 def _run(mission: Mission, seed: int, *, start_tick: int, keep_all: bool) -> Kept:
     mission = mission.model_copy(update={"seed": seed})
-    params = _with_arrays(compose.params(mission))
-    setup = _setup(mission, start_tick)
+    return fly_setup(setup_of(mission, start_tick=start_tick), compose.params(mission), keep_all=keep_all)
+
+
+def fly_setup(setup: Setup, params: Params, *, keep_all: bool) -> Kept:
+    """Fly from a start of one's own making, such as `setup_of(mission)._replace(target_x=...)`.
+
+    Args:
+        keep_all: whether to fill all of what is kept, or the counts alone.
+    """
+    params = _with_arrays(params)
     m, n = len(setup.home_x), len(setup.target_x)
     kept = _kept(setup.ticks, m, n, keep_all)
     fly(setup, params, _tables(params, m, n), _flock(setup), _said(m, n), _said(m, n), kept)
     return kept
 
 
-def _setup(mission: Mission, start_tick: int) -> Setup:
+def setup_of(mission: Mission, *, start_tick: int = 0) -> Setup:
+    """What a mission starts from: its own seed, places and headings, and its targets' tracks if they have any."""
     targets, seed = mission.targets, mission.seed
     ticks = max(1, round(mission.duration_s / mission.tick_s))
     homes = np.array(compose.deployment(mission))
@@ -166,6 +176,7 @@ def _setup(mission: Mission, start_tick: int) -> Setup:
         target_speed_m_s=speed,
         notice_range_m=mission.target_sensing_range_m,
         comm_range_m=mission.radio.range_m,
+        identity_error=mission.agents.sensing.identity_error,
         seed=seed,
         ticks=ticks,
         start_tick=start_tick,
@@ -242,6 +253,7 @@ def _flock(setup: Setup) -> Flock:
         target_ux=setup.target_ux.copy(),
         target_uy=setup.target_uy.copy(),
         here=np.ones(n, np.bool_),
+        seen=np.zeros(n, np.bool_),
         owned=np.zeros((m, n), np.bool_),
         helping=np.full(m, NOBODY),
         called_at=np.full((m, n), NEVER),
