@@ -16,6 +16,7 @@ PLACE_TARGET = 6
 GUST = 7
 SENSOR_NOISE = 8
 START_HEADING = 9
+IDENTITY_ERROR = 10
 
 
 def mix(x: int) -> int:

@@ -164,7 +164,13 @@ def world(mission: Mission) -> World:
     Raises:
         InputError: a file of tracks that cannot be read, or of another place.
     """
-    return World(herd=herd(mission), sensing_range_m=mission.agents.sensing.range_m)
+    sensing = mission.agents.sensing
+    return World(
+        herd=herd(mission),
+        sensing_range_m=sensing.range_m,
+        identity_error=sensing.identity_error,
+        seed=mission.seed,
+    )
 
 
 def air(mission: Mission, bus: Bus) -> Air:

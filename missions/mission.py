@@ -120,6 +120,8 @@ class Sensing(Part):
     """How far, horizontally, an agent sees targets."""
     field_of_view: Literal["omni"] = "omni"
     """In which directions it sees: `omni` is all of them."""
+    identity_error: Annotated[float, Field(ge=0, le=1)] = 0.0
+    """Probability that a target seen is taken for another one; drawn for every agent, target and tick."""
 
 
 class AgentDeployment(Part):

@@ -6,19 +6,21 @@ from collections.abc import Sequence
 
 from comms.messages import Sighting
 from vehicle_sim.herd import Herd, Place
-from vehicle_sim.sensing import sees
+from vehicle_sim.sensing import reported, sees
 
 
 class World:
     """Ground truth. It knows every target; what leaves it is only what some agent senses.
 
     Attributes:
-        seen: per target, whether any agent saw it at the last `sense`.
+        seen: per target, whether any sensor saw it at the last `sense`, under whatever name.
     """
 
-    def __init__(self, *, herd: Herd, sensing_range_m: float) -> None:
+    def __init__(self, *, herd: Herd, sensing_range_m: float, identity_error: float = 0.0, seed: int = 0) -> None:
         self.herd = herd
         self._range_m = sensing_range_m
+        self._identity_error = identity_error
+        self._seed = seed
         self.seen = [False] * len(herd.places)
 
     @property
@@ -26,10 +28,10 @@ class World:
         """Where every target is, ENU meters; None while it is not in the world."""
         return self.herd.places
 
-    def sense(self, agents: Sequence[Place | None]) -> list[list[Sighting]]:
-        """What each agent at its true (x, y) sees now, by uid; None is an agent on the ground, which sees nothing.
+    def sense(self, tick: int, agents: Sequence[Place | None]) -> list[list[Sighting]]:
+        """What each agent at its true (x, y) sees in state `tick`, by uid; one on the ground (None) sees nothing.
 
-        Sightings are in the order of target ids.
+        Sightings are in the order of the targets seen, whose names may be mistaken: two may bear the same one.
         """
         range_m, seen = self._range_m, [False] * len(self.herd.places)
         sightings: list[list[Sighting]] = [[] for _ in agents]
@@ -39,7 +41,8 @@ class World:
             x, y = place
             for uid, agent in enumerate(agents):
                 if agent is not None and sees(x - agent[0], y - agent[1], range_m):
-                    sightings[uid].append(Sighting(target, x, y))
+                    name = reported(target, len(seen), self._identity_error, uid, self._seed, tick)
+                    sightings[uid].append(Sighting(name, x, y))
                     seen[target] = True
         self.seen = seen
         return sightings

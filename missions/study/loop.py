@@ -28,7 +28,7 @@ from swarm_agent.bcmommt.modes import Mode
 from swarm_agent.bcmommt.params import Params
 from swarm_agent.bcmommt.step import Mind
 from swarm_agent.policies.choice import decide
-from vehicle_sim.sensing import sees
+from vehicle_sim.sensing import reported, sees
 from vehicle_sim.targets import evade, roam
 
 EVASIVE, RANDOM, STATIC, REPLAY = 0, 1, 2, 3
@@ -61,6 +61,7 @@ class Setup(NamedTuple):
     target_speed_m_s: float
     notice_range_m: float
     comm_range_m: float
+    identity_error: float
     seed: int
     ticks: int
     start_tick: int
@@ -87,8 +88,10 @@ class Flock(NamedTuple):
     Attributes:
         mode .. goal_since (m): the columns of every agent's `Mind`. east, north (m): true place from home; x, y (m): in
         the mission's frame, and before_x, before_y one tick ago; v_east, v_north (m): velocity to the next tick.
-        target_x .. target_uy (n), here (n): targets, and whether they are in the world.
-        owned (m, n), helping (m): tags and help one tick ago. called_at (m, n): when each call was last out. heard (m): scratch.
+        target_x .. target_uy (n), here (n): targets, and whether they are in the world. seen (n): whether any sensor
+        sees them, under whatever name.
+        owned (m, n), helping (m): tags and help one tick ago. called_at (m, n): when each call was last out.
+        heard (m): scratch.
     """
 
     mode: Array
@@ -111,6 +114,7 @@ class Flock(NamedTuple):
     target_ux: Array
     target_uy: Array
     here: Array
+    seen: Array
     owned: Array
     helping: Array
     called_at: Array
@@ -206,14 +210,13 @@ def _count(kept: Kept, tables: Table, f: Flock, said: Said, k: int, now: float) 
     """Coverage, definition 7 and help episodes of tick k, as `missions.metrics` counts them."""
     m, n = f.owned.shape
     for j in range(n):
-        seen = had = has = dropped = False
+        had = has = dropped = False
         for i in range(m):
-            seen |= tables.sensed[i, j]
             had |= f.owned[i, j]
             has |= tables.tagged[i, j]
             dropped |= f.owned[i, j] and not tables.tagged[i, j]
         kept.present[k] += f.here[j]
-        kept.seen[k] += seen
+        kept.seen[k] += f.seen[j]
         kept.events[0] += had and not has
         kept.events[1] += has and not had
         kept.events[2] += had and has and dropped
@@ -264,7 +267,9 @@ def _act(s: Setup, p: Params, t: Table, f: Flock, old: Said, new: Said, i: int, 
                 _hear(t, p, old, q, said_at)
     for j in range(len(f.here)):
         if f.here[j] and sees(f.target_x[j] - f.x[i], f.target_y[j] - f.y[i], p.sensing_range_m):
-            see(t, p, j, f.target_x[j], f.target_y[j], x, y, now)
+            f.seen[j] = True
+            name = reported(j, len(f.here), s.identity_error, i, s.seed, k)
+            see(t, p, name, f.target_x[j], f.target_y[j], x, y, now)
     mode = Mode.EXPLORE if f.mode[i] == 0 else (Mode.FOLLOW if f.mode[i] == 1 else Mode.HELP)
     mind = Mind(mode, f.helps[i], f.capture[i], f.heading_x[i], f.heading_y[i], f.goal[i], f.goal_since[i])
     mind, vx, vy = decide(t, p, mind, i, x, y, now, s.seed, k)
@@ -324,6 +329,8 @@ def fly(s: Setup, p: Params, tables: Table, f: Flock, odd: Said, even: Said, kep
             for j in range(len(f.here)):
                 f.here[j] = s.track_x[k, j] == s.track_x[k, j]  # NaN while it is absent
                 f.target_x[j], f.target_y[j] = s.track_x[k, j], s.track_y[k, j]
+        for j in range(len(f.seen)):
+            f.seen[j] = False
         for i in range(len(f.x)):
             if k % 2 == 0:
                 _act(s, p, _row(tables, i), f, odd, even, i, k)

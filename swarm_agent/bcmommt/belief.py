@@ -102,7 +102,10 @@ def begin_tick(t: Table) -> None:
 
 
 def see(t: Table, p: Params, j: int, x: float, y: float, me_x: float, me_y: float, now: float) -> None:
-    """Target j is sensed at (x, y). Its velocity is the quotient of this and the last known position, if recent."""
+    """Target j is sensed at (x, y). Its velocity is the quotient of this and the last known position, if recent.
+
+    Of several sightings of j in one tick (mistaken names) the last one's place counts, and the first one's velocity.
+    """
     age = now - t.known_at_s[j]
     if age > 0.0:
         vx, vy = (x - t.x_m[j]) / age, (y - t.y_m[j]) / age
@@ -120,17 +123,10 @@ def see(t: Table, p: Params, j: int, x: float, y: float, me_x: float, me_y: floa
 
 
 def hear_mate(t: Table, mate: int, x: float, y: float, at: float) -> None:
-    """A frame of `mate`, sent from (x, y) at `at`. It is whole: what it does not repeat, the mate has withdrawn."""
+    """A frame of `mate`, sent from (x, y) at `at`. It is whole: what it does not repeat is withdrawn (see `alive`)."""
     t.mate_x_m[mate] = x
     t.mate_y_m[mate] = y
     t.mate_at_s[mate] = at
-    for j in range(len(t.owner)):
-        if t.owner[j] == mate:
-            t.owner[j] = NOBODY
-        if t.caller[j] == mate:
-            t.caller[j] = NOBODY
-        if t.answerer[j] == mate:
-            t.answerer[j] = NOBODY
 
 
 def hear_position(t: Table, j: int, x: float, y: float, vx: float, vy: float, at: float) -> None:
@@ -146,7 +142,7 @@ def hear_position(t: Table, j: int, x: float, y: float, vx: float, vy: float, at
 def hear_tag(t: Table, p: Params, j: int, mate: int, distance: float, at: float) -> None:
     """`mate` claims target j from `distance` away. Of several claims the nearest counts."""
     if not (
-        alive(t.owner[j], t.owner_at_s[j], p.tag_lease_s, at)
+        alive(t, t.owner[j], t.owner_at_s[j], p.tag_lease_s, at)
         and outranks(t.owner_distance_m[j], t.owner[j], distance, mate)
     ):
         t.owner[j] = mate
@@ -157,7 +153,7 @@ def hear_tag(t: Table, p: Params, j: int, mate: int, distance: float, at: float)
 def hear_call(t: Table, p: Params, j: int, mate: int, loss_at: float, at: float) -> None:
     """`mate` calls for help: it will lose target j at `loss_at`. Of several calls the most urgent counts."""
     if not (
-        alive(t.caller[j], t.caller_at_s[j], p.help_lease_s, at)
+        alive(t, t.caller[j], t.caller_at_s[j], p.help_lease_s, at)
         and outranks(t.call_loss_at_s[j], t.caller[j], loss_at, mate)
     ):
         t.caller[j] = mate
@@ -168,7 +164,7 @@ def hear_call(t: Table, p: Params, j: int, mate: int, loss_at: float, at: float)
 def hear_answer(t: Table, p: Params, j: int, mate: int, capture: float, at: float) -> None:
     """`mate` answers the call for target j and will have it in `capture` seconds. The quickest answer counts."""
     if not (
-        alive(t.answerer[j], t.answerer_at_s[j], p.help_lease_s, at)
+        alive(t, t.answerer[j], t.answerer_at_s[j], p.help_lease_s, at)
         and outranks(t.answer_capture_s[j], t.answerer[j], capture, mate)
     ):
         t.answerer[j] = mate
@@ -176,9 +172,12 @@ def hear_answer(t: Table, p: Params, j: int, mate: int, capture: float, at: floa
         t.answerer_at_s[j] = at
 
 
-def alive(speaker: int, at: float, lease: float, now: float) -> bool:
-    """Whether something said at `at` still holds. Claims, calls and answers are leases: they expire unless renewed."""
-    return speaker != NOBODY and now - at <= lease + 1e-6
+def alive(t: Table, speaker: int, at: float, lease: float, now: float) -> bool:
+    """Whether something said at `at` still holds: the speaker's last frame repeated it, and not too long ago.
+
+    Claims, calls and answers are leases: they expire unless renewed.
+    """
+    return speaker != NOBODY and at >= t.mate_at_s[speaker] and now - at <= lease + 1e-6
 
 
 def outranks(value: float, speaker: int, other_value: float, other_speaker: int) -> bool:
@@ -188,7 +187,17 @@ def outranks(value: float, speaker: int, other_value: float, other_speaker: int)
 
 def owned_by_mate(t: Table, p: Params, j: int, now: float) -> bool:
     """Whether a mate's claim on target j is in force."""
-    return alive(t.owner[j], t.owner_at_s[j], p.tag_lease_s, now)
+    return alive(t, t.owner[j], t.owner_at_s[j], p.tag_lease_s, now)
+
+
+def called_by_mate(t: Table, p: Params, j: int, now: float) -> bool:
+    """Whether a mate's help call for target j is in force."""
+    return alive(t, t.caller[j], t.caller_at_s[j], p.help_lease_s, now)
+
+
+def answered_by_mate(t: Table, p: Params, j: int, now: float) -> bool:
+    """Whether a mate's answer to the call for target j is in force."""
+    return alive(t, t.answerer[j], t.answerer_at_s[j], p.help_lease_s, now)
 
 
 def predicted_place(t: Table, p: Params, j: int, now: float) -> tuple[float, float]:

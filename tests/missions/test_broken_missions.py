@@ -144,7 +144,8 @@ CASES: dict[str, tuple[str, list[str]]] = {
     ]),
     # Unknown keys.
     "a misspelled key": ("name: m\nagents:\n  sensing:\n    rang_m: 5\n", [
-        ":4: agents.sensing.rang_m: got an unknown key; allowed: range_m, field_of_view; did you mean range_m?",
+        ":4: agents.sensing.rang_m: got an unknown key; allowed: range_m, field_of_view, identity_error; "
+        "did you mean range_m?",
     ]),
     "a misspelled section": ("name: m\nagnets: {count: 3}\n", [
         f":2: agnets: got an unknown key; allowed: {TOP}; did you mean agents?",

@@ -13,7 +13,6 @@ from vehicle_sim.herd import Evasive, Herd, Random, Replay, Static
 from vehicle_sim.placement import heading, scatter
 from vehicle_sim.targets import evade, flight_direction
 from vehicle_sim.tracks import parse_tracks
-from vehicle_sim.world import World
 
 ARENA = disc(30.0)
 
@@ -114,17 +113,6 @@ def test_a_replay_interpolates_brings_back_to_the_edge_and_lets_animals_come_and
     for tick in range(70, 201):
         herd.advance(tick, [], [])
     assert herd.places == [None, None]
-
-
-def test_sensing_is_a_disc_and_tells_each_agent_its_own() -> None:
-    herd = Static(
-        arena=ARENA, places=[(0.0, 0.0), (8.0, 0.0), (20.0, 0.0)], headings=[(1.0, 0.0)] * 3, tick_s=0.1, seed=1
-    )
-    world = World(herd=herd, sensing_range_m=5.0)
-    seen = world.sense([(5.0, 0.0), (0.0, 5.001), (8.0, 0.0)])
-    assert [[s.target for s in agent] for agent in seen] == [[0, 1], [], [1]]
-    assert seen[0][0] == (0, 0.0, 0.0)
-    assert world.seen == [True, True, False]
 
 
 def test_scatter_fills_the_disc_keeps_its_distance_and_says_when_it_is_full() -> None:

@@ -65,6 +65,7 @@ def compare(mission: Mission) -> None:
         ("narrow", AS_PRINTED),
         ("crowded", "targets.motion=random"),
         ("narrow", "policy.explore=stale-first", "policy.commitment=false", "seed=7"),
+        ("crowded", "agents.sensing.identity_error=0.3"),
         ("quickstart", "policy.name=a-cmommt"),
         ("quickstart", "policy.name=b-cmommt-basic"),
         ("quickstart", "policy.name=regions"),
