@@ -10,7 +10,8 @@ from swarm_agent.bcmommt.belief import (
     NEVER,
     NOBODY,
     Table,
-    alive,
+    answered_by_mate,
+    called_by_mate,
     outranks,
     owned_by_mate,
     predicted_place,
@@ -66,9 +67,7 @@ def is_called(t: Table, p: Params, j: int, me_x: float, me_y: float, now: float)
         return True
     if _looks_empty(t, p, j, me_x, me_y, now):
         return False
-    return alive(t.caller[j], t.caller_at_s[j], p.help_lease_s, now) and (
-        t.owner[j] == t.caller[j] or not owned_by_mate(t, p, j, now)
-    )
+    return called_by_mate(t, p, j, now) and (t.owner[j] == t.caller[j] or not owned_by_mate(t, p, j, now))
 
 
 def time_until_loss(t: Table, p: Params, j: int, now: float) -> float:
@@ -87,7 +86,7 @@ def keeps(t: Table, p: Params, j: int, me: int, me_x: float, me_y: float, my_cap
     """
     if not is_called(t, p, j, me_x, me_y, now):
         return False  # withdrawn, expired or settled. PAPER: Algorithm 1 has no way back from Help to Explore
-    rival = alive(t.answerer[j], t.answerer_at_s[j], p.help_lease_s, now)
+    rival = answered_by_mate(t, p, j, now)
     return not (rival and outranks(t.answer_capture_s[j], t.answerer[j], my_capture, me))
 
 
@@ -109,7 +108,7 @@ def choose(
         capture = time_to_capture(t, p, j, me_x, me_y, now)
         if capture >= FAR or (p.gate == Gate.IN_TIME and capture >= time_until_loss(t, p, j, now)):
             continue
-        unanswered = not alive(t.answerer[j], t.answerer_at_s[j], p.help_lease_s, now)
+        unanswered = not answered_by_mate(t, p, j, now)
         if not unanswered:
             mine = my_capture if j == helping else on_wire(capture)
             if not outranks(mine, me, t.answer_capture_s[j], t.answerer[j]):

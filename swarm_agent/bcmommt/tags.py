@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from swarm_agent.bcmommt.belief import FAR, NOBODY, Table, alive, outranks, owned_by_mate
+from swarm_agent.bcmommt.belief import FAR, NOBODY, Table, answered_by_mate, outranks, owned_by_mate
 from swarm_agent.bcmommt.params import Params
 
 
@@ -56,7 +56,7 @@ def may_tag(t: Table, p: Params, j: int, helping: int, now: float) -> bool:
     """
     if helping in (NOBODY, j):
         return True
-    return not owned_by_mate(t, p, j, now) and not alive(t.answerer[j], t.answerer_at_s[j], p.help_lease_s, now)
+    return not owned_by_mate(t, p, j, now) and not answered_by_mate(t, p, j, now)
 
 
 def nearest_tag(t: Table) -> int:

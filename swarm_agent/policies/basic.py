@@ -9,7 +9,7 @@ from math import sqrt
 
 from comms.messages import on_wire
 from swarm_agent.bcmommt.behaviors import approach, capped, follow, look_around
-from swarm_agent.bcmommt.belief import FAR, NEVER, NOBODY, Table, alive, owned_by_mate
+from swarm_agent.bcmommt.belief import FAR, NEVER, NOBODY, Table, called_by_mate, owned_by_mate
 from swarm_agent.bcmommt.modes import Mode
 from swarm_agent.bcmommt.params import Explore, Params
 from swarm_agent.bcmommt.prediction import in_predictive_tracking, predicted_distance
@@ -77,7 +77,7 @@ def nearest_caller(t: Table, p: Params, me_x: float, me_y: float, now: float) ->
     """
     best, best_distance = NOBODY, FAR
     for j in range(len(t.caller)):
-        if alive(t.caller[j], t.caller_at_s[j], p.help_lease_s, now):
+        if called_by_mate(t, p, j, now):
             dx, dy = t.mate_x_m[t.caller[j]] - me_x, t.mate_y_m[t.caller[j]] - me_y
             distance = sqrt(dx * dx + dy * dy)
             if distance < best_distance:
