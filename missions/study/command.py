@@ -66,12 +66,13 @@ def fly_paper(options: StudyOptions, *, flyer: Flyer | None = None) -> int:
     flyer = flyer or _flyer(options)
     whole: list[Results] = []
     # The paper's own figures first.
-    for name in sorted(bundled_studies(), key=lambda name: (not name.startswith("figure"), name)):
+    names = sorted(bundled_studies(), key=lambda name: (not name.startswith("figure"), name))
+    for name in names:
         results = _flown(name, options, folder / name, console, flyer)
         if results is not None:
             write_study(results, folder / name)
             whole.append(results)
-    if len(whole) == len(bundled_studies()):
+    if len(whole) == len(names):
         _say(console, write_index(whole, folder, title="The experiments of the paper, flown again"))
     return DONE
 

@@ -33,8 +33,10 @@ _ROOT = Path(__file__).parent.parent.parent
 # All that decides how a mission goes. The pilots, the wires and the recorder take no part in a study.
 _SOURCES = (
     "comms/*.py",
-    "swarm_agent/**/*.py",
+    "swarm_agent/bcmommt/*.py",
+    "swarm_agent/policies/*.py",
     "vehicle_sim/*.py",
+    "missions/training/weights.json",
     "missions/compose.py",
     "missions/rules.py",
     "missions/study/engine.py",
