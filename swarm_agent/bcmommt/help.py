@@ -65,9 +65,9 @@ def is_called(t: Table, p: Params, j: int, me_x: float, me_y: float, now: float)
     """
     if is_lost(t, p, j, now):
         return True
-    if _looks_empty(t, p, j, me_x, me_y, now):
+    if not called_by_mate(t, p, j, now) or (t.owner[j] != t.caller[j] and owned_by_mate(t, p, j, now)):
         return False
-    return called_by_mate(t, p, j, now) and (t.owner[j] == t.caller[j] or not owned_by_mate(t, p, j, now))
+    return not _looks_empty(t, p, j, me_x, me_y, now)
 
 
 def time_until_loss(t: Table, p: Params, j: int, now: float) -> float:
