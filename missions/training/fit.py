@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 import torch
 from torch import Tensor, nn
 
@@ -35,7 +38,8 @@ def fit(inputs: Floats, teacher: Floats, *, n_hidden: int, seed: int, steps: int
         error.backward()  # type: ignore[no-untyped-call]
         return error
 
-    optimizer.step(loss)  # type: ignore[no-untyped-call]
+    with _one_thread():
+        optimizer.step(loss)  # type: ignore[no-untyped-call]
     return _net(module)
 
 
@@ -43,8 +47,8 @@ def as_module(net: Net) -> nn.Sequential:
     """The net as a torch module: (N, I) to (N, 1)."""
     n_inputs = len(net.hidden[0]) - 2
     module = _module(n_inputs, len(net.hidden), seed=0)
-    rows = torch.tensor(net.hidden, dtype=torch.float64)
-    values = (rows[:, :n_inputs], rows[:, n_inputs], rows[None, :, n_inputs + 1], torch.tensor([net.bias]))
+    rows, bias = (torch.tensor(numbers, dtype=torch.float64) for numbers in (net.hidden, [net.bias]))
+    values = (rows[:, :n_inputs], rows[:, n_inputs], rows[None, :, n_inputs + 1], bias)
     with torch.no_grad():
         for parameter, value in zip(module.parameters(), values, strict=True):
             parameter.copy_(value)
@@ -56,6 +60,17 @@ def predict(net: Net, inputs: Floats) -> Floats:
     with torch.no_grad():
         shares: Floats = as_module(net)(torch.from_numpy(inputs))[:, 0].numpy()
     return shares
+
+
+@contextmanager
+def _one_thread() -> Iterator[None]:
+    """So small a net loses time to threads; and one adds up in one order, so that a fit repeats exactly."""
+    before = torch.get_num_threads()
+    torch.set_num_threads(1)
+    try:
+        yield
+    finally:
+        torch.set_num_threads(before)
 
 
 def _module(n_inputs: int, n_hidden: int, seed: int) -> nn.Sequential:
