@@ -12,10 +12,10 @@ run: $(VENV)/ground.done
 	@echo "Look at it: $(BIN)/rerun out/quickstart.rrd"
 
 test: check
-	$(BIN)/python -m pytest -n 2 -m "not slow" tests
+	$(BIN)/python -m pytest -n 2 --dist loadgroup -m "not slow" tests
 
 test-slow: $(VENV)/all.done
-	$(BIN)/python -m pytest -n 2 tests
+	$(BIN)/python -m pytest -n 2 --dist loadgroup tests
 
 check: $(VENV)/all.done
 	$(BIN)/ruff format --check .
