@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import atan2
+from math import atan2, cos, radians
 
 from comms.air import Air, LinkModel
 from comms.chance import PLACE_AGENT
@@ -16,11 +16,12 @@ from missions.training.weights import BUNDLED, read_weights
 from swarm_agent.agent import Agent, AgentConfig
 from swarm_agent.autopilot import PilotConfig
 from swarm_agent.bcmommt.net import BLANK, Net
-from swarm_agent.bcmommt.params import Call, Capture, Explore, Gate, Params, Policy, Predictor
+from swarm_agent.bcmommt.params import Call, Capture, Explore, Gate, Params, Policy, Predictor, with_range
 from vehicle_sim.autopilot import SimulatedVehicle
 from vehicle_sim.battery import Battery
 from vehicle_sim.flight import FlightLimits
 from vehicle_sim.placement import heading
+from vehicle_sim.sensing import ALL_AROUND
 from vehicle_sim.vehicle import VehicleConfig
 from vehicle_sim.wind import Wind
 from vehicle_sim.world import World
@@ -48,6 +49,19 @@ def deployment(mission: Mission) -> tuple[Place, ...]:
     return tuple(enu_from_geo(home, place)[:2] for place in pads(mission))
 
 
+def headings(mission: Mission) -> tuple[Place, ...]:
+    """Where agents look and search first, by uid: unit vectors east and north."""
+    return tuple(heading(who=uid, seed=mission.seed, purpose=PLACE_AGENT) for uid in range(mission.agents.count))
+
+
+def cos_half_opening(mission: Mission) -> float:
+    """The cosine of half the angle that agents see into; ALL_AROUND unless they have a sector."""
+    sensing = mission.agents.sensing
+    if sensing.field_of_view != "sector" or sensing.opening_deg >= 360.0:
+        return ALL_AROUND
+    return cos(radians(sensing.opening_deg / 2))
+
+
 def pads(mission: Mission) -> tuple[GeoPoint, ...]:
     """The same places on the globe."""
     places = start_places(mission)
@@ -60,7 +74,7 @@ def pads(mission: Mission) -> tuple[GeoPoint, ...]:
 
 
 def params(mission: Mission) -> Params:
-    """The algorithm's constants.
+    """The algorithm's constants; the sensing range is that of the key, and `agents` has each one's own.
 
     Raises:
         InputError: weights of the learned predictor that cannot be read.
@@ -113,10 +127,10 @@ def agents(mission: Mission, n_targets: int) -> list[Agent]:
             AgentConfig(
                 uid=uid,
                 seed=mission.seed,
-                params=shared,
+                params=with_range(shared, mission.agents.sensing_ranges_m[uid]),
                 n_agents=mission.agents.count,
                 n_targets=n_targets,
-                heading=heading(who=uid, seed=mission.seed, purpose=PLACE_AGENT),
+                heading=first,
                 ttl_s=ttl_s,
                 pilot=PilotConfig(
                     uid=uid,
@@ -128,7 +142,7 @@ def agents(mission: Mission, n_targets: int) -> list[Agent]:
                 ),
             )
         )
-        for uid in range(mission.agents.count)
+        for uid, first in enumerate(headings(mission))
     ]
 
 
@@ -143,8 +157,7 @@ def vehicles(mission: Mission) -> list[SimulatedVehicle]:
         battery=Battery(**vehicle.battery.model_dump()),
     )
     parts = []
-    for uid, pad in enumerate(pads(mission)):
-        east, north = heading(who=uid, seed=mission.seed, purpose=PLACE_AGENT)
+    for uid, (pad, (east, north)) in enumerate(zip(pads(mission), headings(mission), strict=True)):
         parts.append(
             SimulatedVehicle(
                 config=config,
@@ -164,11 +177,12 @@ def world(mission: Mission) -> World:
     Raises:
         InputError: a file of tracks that cannot be read, or of another place.
     """
-    sensing = mission.agents.sensing
     return World(
         herd=herd(mission),
-        sensing_range_m=sensing.range_m,
-        identity_error=sensing.identity_error,
+        sensing_ranges_m=mission.agents.sensing_ranges_m,
+        headings=headings(mission),
+        cos_half_opening=cos_half_opening(mission),
+        identity_error=mission.agents.sensing.identity_error,
         seed=mission.seed,
     )
 

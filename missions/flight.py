@@ -91,7 +91,8 @@ class Flight:
         places = [truth.position_m[:2] for truth in truths]
         aloft = [place if self._is_aloft(uid) else None for uid, place in enumerate(places)]
 
-        sightings = [[] for _ in places] if mission_tick is None else self.world.sense(mission_tick, aloft)
+        velocities = [truth.velocity_m_s[:2] for truth in truths]
+        sightings = [[] for _ in places] if mission_tick is None else self.world.sense(mission_tick, aloft, velocities)
         order = Order(mission_tick=mission_tick, come_home=self._phase is Phase.RETURN)
         outputs = self._think(now_s, order, sightings)
         self._speak(tick, outputs, places)

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from math import radians, tan
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -118,8 +119,12 @@ class Sensing(Part):
 
     range_m: Positive = 5.5
     """How far, horizontally, an agent sees targets."""
-    field_of_view: Literal["omni"] = "omni"
-    """In which directions it sees: `omni` is all of them."""
+    field_of_view: Literal["omni", "sector", "camera"] = "omni"
+    """`omni`: all around; `sector`: ahead, within an angle; `camera`: all around below, as far as a cone reaches."""
+    opening_deg: Annotated[float, Field(gt=0, le=360)] = 120.0
+    """A sector's whole angle, about the direction of flight."""
+    half_angle_deg: Annotated[float, Field(gt=0, le=85)] = 15.0
+    """A camera's cone, from its axis to its edge: it sees as far as the agent flies high, times the tangent."""
     identity_error: Annotated[float, Field(ge=0, le=1)] = 0.0
     """Probability that a target seen is taken for another one; drawn for every agent, target and tick."""
 
@@ -162,6 +167,15 @@ class Agents(Part):
     altitude: Altitude = Altitude()
     """How high agents fly."""
 
+    @property
+    def sensing_ranges_m(self) -> tuple[float, ...]:
+        """How far each agent sees, horizontally, by uid: r_s(v_i)."""
+        sensing = self.sensing
+        if sensing.field_of_view != "camera":
+            return (sensing.range_m,) * self.count
+        slope = tan(radians(sensing.half_angle_deg))
+        return tuple(self.altitude.of_agent(uid) * slope for uid in range(self.count))
+
 
 class TargetDeployment(Part):
     """Where targets start: at random places in a circle about home."""
@@ -180,7 +194,7 @@ class MovingTargets(Part):
     speed_m_s: Positive = 0.3
     """Speed of targets that move."""
     sensing_range_m: float | None = Field(default=None, gt=0)
-    """How far an evasive target notices an agent; null: as far as agents see."""
+    """How far an evasive target notices an agent; null: as far as any agent sees."""
     deployment: TargetDeployment = TargetDeployment()
     """Where targets start."""
 
@@ -338,7 +352,7 @@ class Mission(Part):
     def target_sensing_range_m(self) -> float:
         """How far a target notices an agent: its own range, or else the agents'."""
         own = self.targets.sensing_range_m if isinstance(self.targets, MovingTargets) else None
-        return self.agents.sensing.range_m if own is None else own
+        return max(self.agents.sensing_ranges_m) if own is None else own
 
 
 def system_id(uid: int) -> int:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import pi
+from math import pi, prod
 from typing import TYPE_CHECKING, Any
 
 from comms.arena import area_m2
@@ -57,8 +57,9 @@ def plan_mission(mission: Mission) -> Plan:
 
 def coverage_floor(mission: Mission) -> float:
     """Share of the arena that agents at random places would see: 1 - (1 - A_sensed / A_arena)^m."""
-    range_m, arena_m2 = mission.agents.sensing.range_m, area_m2(mission.arena.area)
-    return 1 - (1 - min(1.0, pi * range_m**2 / arena_m2)) ** mission.agents.count
+    sensing, arena_m2 = mission.agents.sensing, area_m2(mission.arena.area)
+    share = sensing.opening_deg / 360 if sensing.field_of_view == "sector" else 1.0
+    return 1 - prod(1 - min(1.0, share * pi * range_m**2 / arena_m2) for range_m in mission.agents.sensing_ranges_m)
 
 
 def _agents(mission: Mission) -> tuple[AgentPlan, ...]:

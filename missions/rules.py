@@ -85,9 +85,8 @@ def _agents_fit(mission: Mission) -> str | None:
 
 
 def _mates_hear_beyond_sight(mission: Mission) -> str | None:
-    if mission.radio.range_m > mission.agents.sensing.range_m:
-        return None
-    return f"more than agents.sensing.range_m ({shown(mission.agents.sensing.range_m)})"
+    farthest_m = max(mission.agents.sensing_ranges_m)
+    return None if mission.radio.range_m > farthest_m else f"more than {_range_words(mission, farthest_m)}"
 
 
 def _ideal_radio_loses_nothing(mission: Mission) -> str | None:
@@ -99,9 +98,15 @@ def _ideal_radio_is_prompt(mission: Mission) -> str | None:
 
 
 def _standoff_in_sight(mission: Mission) -> str | None:
-    if mission.policy.standoff_m < mission.agents.sensing.range_m:
-        return None
-    return f"less than agents.sensing.range_m ({shown(mission.agents.sensing.range_m)})"
+    nearest_m = min(mission.agents.sensing_ranges_m)
+    return None if mission.policy.standoff_m < nearest_m else f"less than {_range_words(mission, nearest_m)}"
+
+
+def _range_words(mission: Mission, range_m: float) -> str:
+    """Where a sensing range comes from."""
+    if mission.agents.sensing.field_of_view == "camera":
+        return f"a camera with agents.sensing.half_angle_deg sees ({shown(round(range_m, 3))})"
+    return f"agents.sensing.range_m ({shown(range_m)})"
 
 
 def _tag_lease_is_renewable(mission: Mission) -> str | None:
@@ -157,13 +162,14 @@ def _layers_are_low(mission: Mission) -> str | None:
 
 
 def _search_has_few_cells(mission: Mission) -> str | None:
-    area, side_m = mission.arena.area, mission.agents.sensing.range_m
+    area, side_m = mission.arena.area, min(mission.agents.sensing_ranges_m)
     cells = 4 * area.half_x_m * area.half_y_m / (side_m * side_m)
     if mission.policy.explore != "stale-first" or cells <= MOST_CELLS:
         return None
     return "persistent-walk in an arena that is so large beside agents.sensing.range_m"
 
 
+_SENSING = tuple(f"agents.sensing.{key}" for key in ("range_m", "field_of_view", "half_angle_deg"))
 _ARENA = ("arena", "arena.radius_m", "arena.width_m", "arena.height_m")
 
 RULES = (
@@ -173,11 +179,11 @@ RULES = (
     Rule("targets.deployment.radius_m", _ARENA, _targets_start_inside),
     Rule("agents.deployment.spacing_m", ("agents.deployment.radius_m", "agents.count", "seed"), _agents_fit),
     Rule("agents.altitude.layer_m", ("agents.altitude.base_m", "agents.count"), _layers_are_low),
-    Rule("policy.explore", ("agents.sensing.range_m", *_ARENA), _search_has_few_cells),
-    Rule("radio.range_m", ("agents.sensing.range_m",), _mates_hear_beyond_sight),
+    Rule("policy.explore", (*_SENSING, *_ARENA), _search_has_few_cells),
+    Rule("radio.range_m", _SENSING, _mates_hear_beyond_sight),
     Rule("radio.loss", ("radio.mode",), _ideal_radio_loses_nothing),
     Rule("radio.latency_s", ("radio.mode",), _ideal_radio_is_prompt),
-    Rule("policy.standoff_m", ("agents.sensing.range_m",), _standoff_in_sight),
+    Rule("policy.standoff_m", _SENSING, _standoff_in_sight),
     Rule("policy.tag_lease_s", ("tick_s", "radio.latency_s"), _tag_lease_is_renewable),
     Rule("policy.help_lease_s", ("tick_s", "radio.latency_s"), _help_lease_is_renewable),
     Rule("vehicle.limits.speed_m_s", ("agents.speed_m_s",), _vehicles_keep_up),

@@ -2,14 +2,34 @@
 
 from __future__ import annotations
 
-from math import floor
+from math import floor, sqrt
 
 from comms.chance import IDENTITY_ERROR, draw
 
+ALL_AROUND = -2.0  # no cosine is so small: a sector without limits
+STANDING_M_S = 0.05  # an agent slower than this keeps its facing
 
-def sees(dx_m: float, dy_m: float, range_m: float) -> bool:
-    """Omnidirectional sensing: o_j is in SC(v_i, t) when it is within the sensing range r_s (section 3)."""
-    return dx_m * dx_m + dy_m * dy_m <= range_m * range_m
+
+def sees(dx_m: float, dy_m: float, range_m: float, facing_x: float, facing_y: float, cos_half_opening: float) -> bool:
+    """Whether o_j is in SC(v_i, t): within the sensing range r_s, and in the sector that the agent looks into.
+
+    Args:
+        dx_m, dy_m: from the agent to the target. facing_x, facing_y: unit vector.
+        cos_half_opening: of half the sector's angle, or ALL_AROUND. What is right below is seen.
+    """
+    squared = dx_m * dx_m + dy_m * dy_m
+    if squared > range_m * range_m:
+        return False
+    return cos_half_opening < -1.0 or dx_m * facing_x + dy_m * facing_y >= cos_half_opening * sqrt(squared)
+
+
+def facing(was_x: float, was_y: float, vx_m_s: float, vy_m_s: float) -> tuple[float, float]:
+    """Where an agent looks (unit vector): along its velocity over ground, or where it did while it stands."""
+    squared = vx_m_s * vx_m_s + vy_m_s * vy_m_s
+    if squared < STANDING_M_S * STANDING_M_S:
+        return was_x, was_y
+    speed = sqrt(squared)
+    return vx_m_s / speed, vy_m_s / speed
 
 
 def reported(target: int, n_targets: int, identity_error: float, agent: int, seed: int, tick: int) -> int:

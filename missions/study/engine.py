@@ -17,14 +17,14 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from comms.chance import PLACE_AGENT, PLACE_TARGET
+from comms.chance import PLACE_TARGET
 from missions import compose
 from missions.mission import Mission, TrackTargets
 from missions.study.loop import EVASIVE, RANDOM, REPLAY, STATIC, Flock, Kept, Said, Setup, fly
 from missions.targets import herd
 from swarm_agent.bcmommt.belief import FAR, NEVER, NOBODY, Table, cell_columns, cell_rows
 from swarm_agent.bcmommt.net import Net
-from swarm_agent.bcmommt.params import Params
+from swarm_agent.bcmommt.params import Params, with_range
 from vehicle_sim.placement import heading
 
 _MOTIONS = {"evasive": EVASIVE, "random": RANDOM, "static": STATIC}
@@ -132,12 +132,13 @@ def fly_setup(setup: Setup, params: Params, *, keep_all: bool) -> Kept:
     """Fly from a start of one's own making, such as `setup_of(mission)._replace(target_x=...)`.
 
     Args:
+        params: of all agents, but for the sensing range: the start has each one's own.
         keep_all: whether to fill all of what is kept, or the counts alone.
     """
     params = _with_arrays(params)
     m, n = len(setup.home_x), len(setup.target_x)
     kept = _kept(setup.ticks, m, n, keep_all)
-    fly(setup, params, _tables(params, m, n), _flock(setup), _said(m, n), _said(m, n), kept)
+    fly(setup, params, _tables(_cells(setup, params), m, n), _flock(setup), _said(m, n), _said(m, n), kept)
     return kept
 
 
@@ -146,7 +147,7 @@ def setup_of(mission: Mission, *, start_tick: int = 0) -> Setup:
     targets, seed = mission.targets, mission.seed
     ticks = max(1, round(mission.duration_s / mission.tick_s))
     homes = np.array(compose.deployment(mission))
-    headings = np.array([heading(who=uid, seed=seed, purpose=PLACE_AGENT) for uid in range(mission.agents.count)])
+    headings = np.array(compose.headings(mission))
     targets_now = herd(mission)
     places = np.array([(0.0, 0.0) if place is None else place for place in targets_now.places])
     target_headings = np.array([heading(who=j, seed=seed, purpose=PLACE_TARGET) for j in range(len(places))])
@@ -176,6 +177,8 @@ def setup_of(mission: Mission, *, start_tick: int = 0) -> Setup:
         target_speed_m_s=speed,
         notice_range_m=mission.target_sensing_range_m,
         comm_range_m=mission.radio.range_m,
+        sensing_range_m=np.array(mission.agents.sensing_ranges_m),
+        cos_half_opening=compose.cos_half_opening(mission),
         identity_error=mission.agents.sensing.identity_error,
         seed=seed,
         ticks=ticks,
@@ -195,9 +198,13 @@ def _with_arrays(params: Params) -> Params:
     )
 
 
-def _tables(params: Params, m: int, n: int) -> Table:
-    cells = cell_columns(params) * cell_rows(params)
+def _cells(setup: Setup, params: Params) -> int:
+    """Cells of the agent that has most of them: the one that sees least far."""
+    nearest = with_range(params, setup.sensing_range_m.min())
+    return cell_columns(nearest) * cell_rows(nearest)
 
+
+def _tables(cells: int, m: int, n: int) -> Table:
     def per_target(value: float, dtype: Any = np.float64) -> npt.NDArray[Any]:
         return np.full((m, n), value, dtype)
 
@@ -244,6 +251,8 @@ def _flock(setup: Setup) -> Flock:
         north=np.zeros(m),
         x=setup.home_x.copy(),
         y=setup.home_y.copy(),
+        facing_x=setup.heading_x.copy(),
+        facing_y=setup.heading_y.copy(),
         before_x=np.zeros(m),
         before_y=np.zeros(m),
         v_east=np.zeros(m),

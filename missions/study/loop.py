@@ -25,10 +25,10 @@ from swarm_agent.bcmommt.belief import (
     see,
 )
 from swarm_agent.bcmommt.modes import Mode
-from swarm_agent.bcmommt.params import Params
+from swarm_agent.bcmommt.params import Params, with_range
 from swarm_agent.bcmommt.step import Mind
 from swarm_agent.policies.choice import decide
-from vehicle_sim.sensing import reported, sees
+from vehicle_sim.sensing import facing, reported, sees
 from vehicle_sim.targets import evade, roam
 
 EVASIVE, RANDOM, STATIC, REPLAY = 0, 1, 2, 3
@@ -44,6 +44,7 @@ class Setup(NamedTuple):
         home_x, home_y (m): agents' starting places. heading_x, heading_y (m): unit vectors of their search.
         target_x, target_y, target_ux, target_uy (n): targets' places and headings.
         track_x, track_y (T, n): places of replayed targets, NaN while absent; (0, 0) for other motions.
+        sensing_range_m (m): how far each agent sees; cos_half_opening: and into which angle, as `sees` reads it.
         motion: EVASIVE, RANDOM, STATIC or REPLAY. start_tick: the clock's tick at which the mission begins.
     """
 
@@ -61,6 +62,8 @@ class Setup(NamedTuple):
     target_speed_m_s: float
     notice_range_m: float
     comm_range_m: float
+    sensing_range_m: Array
+    cos_half_opening: float
     identity_error: float
     seed: int
     ticks: int
@@ -87,7 +90,8 @@ class Flock(NamedTuple):
 
     Attributes:
         mode .. goal_since (m): the columns of every agent's `Mind`. east, north (m): true place from home; x, y (m): in
-        the mission's frame, and before_x, before_y one tick ago; v_east, v_north (m): velocity to the next tick.
+        the mission's frame, and before_x, before_y one tick ago. facing_x, facing_y (m): unit vector it looks along.
+        v_east, v_north (m): velocity to the next tick.
         target_x .. target_uy (n), here (n): targets, and whether they are in the world. seen (n): whether any sensor
         sees them, under whatever name.
         owned (m, n), helping (m): tags and help one tick ago. called_at (m, n): when each call was last out.
@@ -105,6 +109,8 @@ class Flock(NamedTuple):
     north: Array
     x: Array
     y: Array
+    facing_x: Array
+    facing_y: Array
     before_x: Array
     before_y: Array
     v_east: Array
@@ -265,8 +271,11 @@ def _act(s: Setup, p: Params, t: Table, f: Flock, old: Said, new: Said, i: int, 
         for q in range(len(f.x)):
             if f.heard[q]:
                 _hear(t, p, old, q, said_at)
+    ux, uy = facing(f.facing_x[i], f.facing_y[i], f.v_east[i], f.v_north[i])
+    f.facing_x[i], f.facing_y[i] = ux, uy
     for j in range(len(f.here)):
-        if f.here[j] and sees(f.target_x[j] - f.x[i], f.target_y[j] - f.y[i], p.sensing_range_m):
+        dx, dy = f.target_x[j] - f.x[i], f.target_y[j] - f.y[i]
+        if f.here[j] and sees(dx, dy, p.sensing_range_m, ux, uy, s.cos_half_opening):
             f.seen[j] = True
             name = reported(j, len(f.here), s.identity_error, i, s.seed, k)
             see(t, p, name, f.target_x[j], f.target_y[j], x, y, now)
@@ -332,10 +341,11 @@ def fly(s: Setup, p: Params, tables: Table, f: Flock, odd: Said, even: Said, kep
         for j in range(len(f.seen)):
             f.seen[j] = False
         for i in range(len(f.x)):
+            own = with_range(p, s.sensing_range_m[i])
             if k % 2 == 0:
-                _act(s, p, _row(tables, i), f, odd, even, i, k)
+                _act(s, own, _row(tables, i), f, odd, even, i, k)
             else:
-                _act(s, p, _row(tables, i), f, even, odd, i, k)
+                _act(s, own, _row(tables, i), f, even, odd, i, k)
         now = (s.start_tick + k) * p.tick_s
         _count(kept, tables, f, even if k % 2 == 0 else odd, k, now)
         if len(kept.agents) > 0:

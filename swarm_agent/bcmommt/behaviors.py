@@ -6,7 +6,18 @@ from math import sqrt
 
 from comms.arena import edge_distance_m, outward_normal
 from comms.chance import EXPLORE_TURN, draw
-from swarm_agent.bcmommt.belief import FAR, NEVER, NOBODY, Table, cell_x, cell_y, predicted_place, see_cells
+from swarm_agent.bcmommt.belief import (
+    FAR,
+    NEVER,
+    NOBODY,
+    Table,
+    cell_columns,
+    cell_rows,
+    cell_x,
+    cell_y,
+    predicted_place,
+    see_cells,
+)
 from swarm_agent.bcmommt.params import Params
 
 # Persistent walk: the heading diffuses by about 0.3 rad in a second, and turns away from mates and the edge.
@@ -99,7 +110,7 @@ def walk(
 def stalest_cell(t: Table, p: Params, me_x: float, me_y: float, now: float) -> int:
     """Explore stale-first: the cell unseen for longest, less the way there; mates' nearer cells are left to them."""
     best, best_score = NOBODY, -FAR
-    for cell in range(len(t.cell_seen_at_s)):
+    for cell in range(cell_columns(p) * cell_rows(p)):
         x, y = cell_x(p, cell), cell_y(p, cell)
         if edge_distance_m(p.arena, x, y) < 0.0:
             continue

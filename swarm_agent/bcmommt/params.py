@@ -82,3 +82,31 @@ class Params(NamedTuple):
     policy: int = Policy.B_CMOMMT
     pair_net: Net = BLANK
     triple_net: Net = BLANK
+
+
+def with_range(p: Params, sensing_range_m: float) -> Params:
+    """The same constants for an agent that senses so far: r_s(v_i). Spelled out, since `_replace` does not compile."""
+    return Params(
+        p.arena,
+        p.tick_s,
+        sensing_range_m,
+        p.agent_speed_m_s,
+        p.target_speed_m_s,
+        p.standoff_m,
+        p.turn_time_s,
+        p.horizon_s,
+        p.help_margin_s,
+        p.tag_lease_s,
+        p.help_lease_s,
+        p.memory_s,
+        p.follow_gain_per_s,
+        p.predictor,
+        p.call,
+        p.gate,
+        p.capture,
+        p.commitment,
+        p.explore,
+        p.policy,
+        p.pair_net,
+        p.triple_net,
+    )

@@ -109,12 +109,12 @@ CASES: dict[str, tuple[str, list[str]]] = {
     ]),
     "values that come later": (
         "name: m\nvehicle: {kind: link}\nradio: {mode: field}\npolicy: {name: shepherd}\n"
-        "agents: {sensing: {field_of_view: camera}}\n",
+        "agents: {sensing: {field_of_view: periscope}}\n",
         [
             ':2: vehicle.kind: got "link"; allowed: simulated or ideal',
             ':3: radio.mode: got "field"; allowed: sim or ideal',
             ':4: policy.name: got "shepherd"; allowed: a-cmommt, b-cmommt-basic, b-cmommt or regions',
-            ':5: agents.sensing.field_of_view: got "camera"; allowed: omni',
+            ':5: agents.sensing.field_of_view: got "periscope"; allowed: omni, sector or camera',
         ],
     ),
     "no such shape": ("name: m\narena:\n  shape: polygon\n  radius_m: 3\n", [
@@ -144,8 +144,8 @@ CASES: dict[str, tuple[str, list[str]]] = {
     ]),
     # Unknown keys.
     "a misspelled key": ("name: m\nagents:\n  sensing:\n    rang_m: 5\n", [
-        ":4: agents.sensing.rang_m: got an unknown key; allowed: range_m, field_of_view, identity_error; "
-        "did you mean range_m?",
+        ":4: agents.sensing.rang_m: got an unknown key; allowed: range_m, field_of_view, opening_deg, "
+        "half_angle_deg, identity_error; did you mean range_m?",
     ]),
     "a misspelled section": ("name: m\nagnets: {count: 3}\n", [
         f":2: agnets: got an unknown key; allowed: {TOP}; did you mean agents?",
@@ -175,6 +175,28 @@ CASES: dict[str, tuple[str, list[str]]] = {
     "a default at odds with a value": ("name: m\nagents:\n  sensing: {range_m: 25}\n", [
         ":3: radio.range_m: got 20 (the default); allowed: more than agents.sensing.range_m (25)",
     ]),
+    "cameras that see beyond the radio": (
+        "name: m\nagents: {count: 3, sensing: {field_of_view: camera, half_angle_deg: 60}}\n",
+        [
+            ":2: radio.range_m: got 20 (the default); "
+            "allowed: more than a camera with agents.sensing.half_angle_deg sees (24.249)",
+        ],
+    ),
+    "a stand-off beyond the lowest camera's sight": (
+        "name: m\nagents: {sensing: {field_of_view: camera}}\npolicy: {standoff_m: 2.7}\n",
+        [
+            ":3: policy.standoff_m: got 2.7; "
+            "allowed: less than a camera with agents.sensing.half_angle_deg sees (2.679)",
+        ],
+    ),
+    "an angle that is none": (
+        "name: m\nagents: {sensing: {opening_deg: 0, half_angle_deg: 90, identity_error: 1.5}}\n",
+        [
+            ":2: agents.sensing.opening_deg: got 0; allowed: a number above 0, at most 360",
+            ":2: agents.sensing.half_angle_deg: got 90; allowed: a number above 0, at most 85",
+            ":2: agents.sensing.identity_error: got 1.5; allowed: a number from 0 to 1",
+        ],
+    ),
     "slower than evasive targets": ("name: m\nagents: {speed_m_s: 0.3}\n", [
         ":2: agents.speed_m_s: got 0.3; allowed: more than targets.speed_m_s (0.3) of evasive targets",
     ]),

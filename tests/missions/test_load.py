@@ -92,6 +92,11 @@ def test_a_rectangle_is_the_worlds_rectangle() -> None:
     assert parsed("name: m\narena: {shape: rectangle, width_m: 40}\n").arena.area == rectangle(40.0, 60.0)
 
 
+def test_targets_notice_cameras_as_far_as_the_highest_sees() -> None:
+    text = "name: m\nagents: {count: 3, sensing: {field_of_view: camera, half_angle_deg: 45}}\n"
+    assert parsed(text).target_sensing_range_m == pytest.approx(14.0)
+
+
 @pytest.mark.parametrize(("given_m", "expected_m"), [("null", 7.0), ("3", 3.0)])
 def test_targets_notice_as_far_as_agents_see_unless_told(given_m: str, expected_m: float) -> None:
     text = f"name: m\nagents: {{sensing: {{range_m: 7}}}}\ntargets: {{sensing_range_m: {given_m}}}\n"

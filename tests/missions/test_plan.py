@@ -29,6 +29,17 @@ def test_floor_of_one_agent_is_its_share_of_the_arena() -> None:
     assert isclose(coverage_floor(mission), pi * 15**2 / (140 * 200))
 
 
+def test_floor_of_a_sector_is_smaller_by_its_share_of_the_circle() -> None:
+    sensing = Sensing(range_m=6, field_of_view="sector", opening_deg=90)
+    assert isclose(coverage_floor(Mission(name="m", agents=Agents(count=1, sensing=sensing))), 0.25 * 36 / 900)
+
+
+def test_floor_of_cameras_counts_each_at_its_height() -> None:
+    agents = Agents(count=2, sensing=Sensing(field_of_view="camera", half_angle_deg=45))  # 10 m and 12 m high
+    assert agents.sensing_ranges_m == pytest.approx((10, 12))
+    assert isclose(coverage_floor(Mission(name="m", agents=agents)), 1 - (1 - 100 / 900) * (1 - 144 / 900))
+
+
 def test_an_agent_that_sees_all_has_floor_one() -> None:
     mission = Mission(name="m", arena=Disc(radius_m=16), agents=Agents(count=1, sensing=Sensing(range_m=17)))
     assert coverage_floor(mission) == 1.0
