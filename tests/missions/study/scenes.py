@@ -17,6 +17,7 @@ from missions.study.loop import REPLAY, Kept, Setup
 AS_PRINTED = "policy={call: predicted, answer_gate: in_time, capture: worst_case, help_margin_s: 2, memory_s: 0}"
 DEFAULT = "policy={}"
 POLICIES = {"as printed": AS_PRINTED, "default": DEFAULT}
+NARROW = "agents.deployment.radius_m=5"
 
 Floats = npt.NDArray[np.float64]
 Place = tuple[float, float]

@@ -13,10 +13,9 @@ from missions import compose  # noqa: E402
 from missions.study.engine import fly_many  # noqa: E402
 from missions.study.loop import Kept  # noqa: E402
 from swarm_agent.bcmommt.profiles import greatest_standoff_m  # noqa: E402
-from tests.missions.study.scenes import AS_PRINTED, POLICIES, fly_one_to_one, loses_sight, mission, replay  # noqa: E402
+from tests.missions.study.scenes import AS_PRINTED, NARROW, POLICIES, fly_one_to_one, loses_sight, mission, replay  # noqa: E402
 
 policies = pytest.mark.parametrize("policy", POLICIES.values(), ids=POLICIES)
-NARROW = "agents.deployment.radius_m=5"
 
 # Theorem 1: agent 0 between two targets, 4 m from either, that flee north and south: eq. 10 is exact, both are lost
 # at t_l. Agent 1 is idle, right behind the one that flees north: that one flees straight away from it, as in eq. 13.
