@@ -96,4 +96,4 @@ def test_without_rerun_the_error_names_the_extra() -> None:
     code = "import sys; sys.modules['rerun'] = None; import missions.recording"
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert run.returncode == 1
-    assert "pip install 'swarm-mission-stack[ground]'" in run.stderr
+    assert "recording needs rerun, which the `ground` extra installs: pip install '.[ground]'" in run.stderr
