@@ -20,6 +20,7 @@ from missions.study.pages import write_index, write_study
 from missions.study.results import Results
 from missions.study.shards import WHOLE, Shard, blocks
 from missions.study.store import STUDY, Store
+from missions.training import figure7
 
 DONE, FAILED = 0, 1
 OUT = Path("out") / "study"
@@ -59,6 +60,15 @@ def fly_study(name_or_path: str, options: StudyOptions, *, flyer: Flyer | None =
     return DONE
 
 
+_FIGURE_7 = (
+    "## figure-7",
+    "",
+    "What the bundled net for two tags says of every situation there can be; `swarm train` prints its errors.",
+    "",
+    f"![The learned predictor for two tags]({figure7.NAME}.png)",
+)
+
+
 def fly_paper(options: StudyOptions, *, flyer: Flyer | None = None) -> int:
     """Fly all bundled studies into one folder, with a page over all of them."""
     console = Console(stderr=True, highlight=False)
@@ -73,7 +83,9 @@ def fly_paper(options: StudyOptions, *, flyer: Flyer | None = None) -> int:
             write_study(results, folder / name)
             whole.append(results)
     if len(whole) == len(names):
-        _say(console, write_index(whole, folder, title="The experiments of the paper, flown again"))
+        figure7.write(folder)
+        title = "The experiments of the paper, flown again"
+        _say(console, write_index(whole, folder, title=title, closing=_FIGURE_7))
     return DONE
 
 

@@ -31,8 +31,12 @@ def write_study(results: Results, folder: Path) -> Path:
     return page
 
 
-def write_index(studies: Sequence[Results], folder: Path, *, title: str) -> Path:
-    """Write one page over several studies, each in the folder of its name beside it; returns the page."""
+def write_index(studies: Sequence[Results], folder: Path, *, title: str, closing: Sequence[str] = ()) -> Path:
+    """Write one page over several studies, each in the folder of its name beside it; returns the page.
+
+    Args:
+        closing: lines of Markdown for the end of the page.
+    """
     judgements = [judgement for results in studies for judgement in judged(results)]
     runs = sum(len(results.ready.points) * results.ready.study.runs for results in studies)
     lines = [f"# {title}", "", f"{len(studies)} studies, {runs} missions.", ""]
@@ -41,6 +45,7 @@ def write_index(studies: Sequence[Results], folder: Path, *, title: str) -> Path
         name = results.ready.study.name
         lines += [f"## {name}", "", results.ready.study.description, "", f"[Tables and data]({name}/{INDEX})", ""]
         lines += _figures(results, prefix=f"{name}/")
+    lines += closing
     page = folder / INDEX
     write_whole(page, ("\n".join(lines).rstrip() + "\n").encode())
     return page
