@@ -5,12 +5,11 @@ Bad bytes decode to None, whatever they are. Ten tags and nine help calls fit in
 
 from __future__ import annotations
 
-from math import floor
 from typing import Annotated
 
 import msgspec
 
-from comms.messages import MAX_ANSWERS, MAX_CALLS, MAX_TAGS, VERSION, Answer, Frame, HelpCall, Tag
+from comms.messages import MAX_ANSWERS, MAX_CALLS, MAX_TAGS, VERSION, Answer, Frame, HelpCall, Tag, thousandths
 
 MAX_FRAME_BYTES = 4096  # nobody needs more; longer input is not looked at
 MAX_TARGETS = 65_536
@@ -44,13 +43,9 @@ _encoder = msgspec.msgpack.Encoder()
 _decoder = msgspec.msgpack.Decoder(_WireFrame)
 
 
-def _thousandths(value: float) -> int:
-    return floor(value * 1000.0 + 0.5)
-
-
 def encode(frame: Frame) -> bytes:
     """The frame's wire form. A value that no receiver would accept (not finite, out of range) raises ValueError."""
-    t = _thousandths
+    t = thousandths
     x, y, z = frame.position_m
     vx, vy, vz = frame.velocity_m_s
     try:

@@ -78,6 +78,11 @@ class Frame(NamedTuple):
     answers: tuple[Answer, ...] = ()
 
 
+def thousandths(value: float) -> int:
+    """`value` as the wire carries it: in whole thousandths (mm, mm/s, ms), rounded half up."""
+    return floor(value * 1000.0 + 0.5)
+
+
 def on_wire(value: float) -> float:
     """`value` as it will read after its journey: rounded to thousandths (mm, mm/s, ms), half up."""
-    return floor(value * 1000.0 + 0.5) / 1000.0
+    return thousandths(value) / 1000.0

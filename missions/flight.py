@@ -22,6 +22,7 @@ from missions.coverage import Coverage
 from missions.mission import Mission
 from missions.observation import AgentTruth, Observation, Observer, Phase, TargetTruth
 from swarm_agent.agent import Agent, Order, Output
+from vehicle_sim.vehicle import VehicleTruth
 
 # A preparation or a return that takes longer than this has gone wrong, whatever the pilots say.
 PREPARE_LIMIT_S = 600.0
@@ -87,10 +88,10 @@ class Flight:
         now_s = tick * self.mission.tick_s
         on_duty = self._phase is Phase.MISSION
         mission_tick = tick - self._phase_began if on_duty else None
-        truths = [self._truth(uid) for uid in range(len(self.vehicles))]
+        states = [vehicle.truth for vehicle in self.vehicles]
+        truths = [self._truth(home, state) for home, state in zip(self._homes, states, strict=True)]
         places = [truth.position_m[:2] for truth in truths]
-        aloft = [place if self._is_aloft(uid) else None for uid, place in enumerate(places)]
-
+        aloft = [None if state.on_ground else place for state, place in zip(states, places, strict=True)]
         velocities = [truth.velocity_m_s[:2] for truth in truths]
         sightings = [[] for _ in places] if mission_tick is None else self.world.sense(mission_tick, aloft, velocities)
         order = Order(mission_tick=mission_tick, come_home=self._phase is Phase.RETURN)
@@ -127,15 +128,11 @@ class Flight:
         present = sum(1 for place in self.world.places if place is not None)
         self.coverage.add(seen=sum(self.world.seen), present=present)
 
-    def _is_aloft(self, uid: int) -> bool:
-        return not self.vehicles[uid].truth.on_ground
-
-    def _truth(self, uid: int) -> AgentTruth:
-        truth = self.vehicles[uid].truth
-        offset = swap_enu_ned(truth.position_ned_m)
-        home = self._homes[uid]
+    @staticmethod
+    def _truth(home: Vec3, state: VehicleTruth) -> AgentTruth:
+        offset = swap_enu_ned(state.position_ned_m)
         position: Vec3 = (home[0] + offset[0], home[1] + offset[1], home[2] + offset[2])
-        return AgentTruth(position, swap_enu_ned(truth.velocity_ned_m_s), truth.yaw_rad)
+        return AgentTruth(position, swap_enu_ned(state.velocity_ned_m_s), state.yaw_rad)
 
     def _observe(
         self,
@@ -214,4 +211,4 @@ class Flight:
 
     def _has_ended(self, status: AgentStatus) -> bool:
         """Landed, or lost and lying on the ground: one that is lost in the air may yet come down."""
-        return status.activity in _ENDED and not self._is_aloft(status.uid)
+        return status.activity in _ENDED and self.vehicles[status.uid].truth.on_ground

@@ -45,11 +45,6 @@ _SERIES = (
 )  # fmt: skip
 
 
-def with_alpha(color: int, alpha: int) -> int:
-    """`color` with its opacity replaced, 0 to 255."""
-    return (color & 0xFFFFFF00) | alpha
-
-
 def series_colors(count: int) -> list[int]:
     """A color for each of `count` plotted agents; they repeat after ten."""
     return [_SERIES[number % len(_SERIES)] for number in range(count)]

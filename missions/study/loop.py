@@ -12,6 +12,7 @@ import numpy as np
 
 from comms.link import in_range
 from comms.messages import MAX_CALLS, MAX_TAGS, on_wire
+from missions.metrics import CALL_PAUSE_S
 from missions.study.rules import compiled, inlined
 from swarm_agent.bcmommt.belief import (
     NOBODY,
@@ -32,7 +33,6 @@ from vehicle_sim.sensing import facing, reported, sees
 from vehicle_sim.targets import evade, roam
 
 EVASIVE, RANDOM, STATIC, REPLAY = 0, 1, 2, 3
-CALL_PAUSE_S = 1.0  # as in `missions.metrics`
 
 Array = Any
 

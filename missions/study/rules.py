@@ -64,7 +64,10 @@ RULES: tuple[ModuleType, ...] = (
 def _source_hash(modules: tuple[ModuleType, ...]) -> str:
     here = Path(__file__).parent
     sources = [inspect.getsource(module) for module in modules]
-    sources += [(here / name).read_text(encoding="utf-8") for name in ("rules.py", "loop.py")]
+    # The loop itself, and whose constants are compiled into it.
+    sources += [
+        path.read_text(encoding="utf-8") for path in (Path(__file__), here / "loop.py", here.parent / "metrics.py")
+    ]
     return hashlib.sha256("\0".join(sources).encode()).hexdigest()[:16]
 
 
