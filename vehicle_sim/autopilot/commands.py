@@ -13,8 +13,9 @@ from typing import Any, NamedTuple
 
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
-from vehicle_sim.autopilot.core import INFO, Autopilot
+from vehicle_sim.autopilot.core import Autopilot
 from vehicle_sim.autopilot.modes import Mode
+from vehicle_sim.autopilot.severity import INFO
 from vehicle_sim.autopilot.streams import Streams
 from vehicle_sim.autopilot.telemetry import BUILDERS, CUSTOM_MODE
 

@@ -1,4 +1,4 @@
-"""The autopilot itself, without its wire: mode, arming, failsafe, and time going by.
+"""The autopilot itself, without its wire: mode, arming, and time going by.
 
 What it has to say is collected in `texts`; `announce` is set when a heartbeat should go out at once.
 """
@@ -9,21 +9,21 @@ from dataclasses import replace
 from math import ceil, isfinite
 
 from comms.frames import GeoPoint
-from vehicle_sim.autopilot.boot import NEED_POSITION, Boot
+from vehicle_sim.autopilot.arming import Reminder, complaints
+from vehicle_sim.autopilot.boot import Boot
+from vehicle_sim.autopilot.failsafes import Failsafes
 from vehicle_sim.autopilot.guidance import TIME_SLACK_S, Guidance
-from vehicle_sim.autopilot.modes import GCS_FAILSAFE_MODES, MODES, Mode
+from vehicle_sim.autopilot.modes import MODES, Mode
 from vehicle_sim.autopilot.parameters import LIMIT_NAMES, Parameters
+from vehicle_sim.autopilot.severity import CRITICAL, INFO, WARNING
 from vehicle_sim.battery import IDLE_SHARE, Charge
 from vehicle_sim.flight import Airframe, Multirotor
 from vehicle_sim.vehicle import VehicleConfig
 from vehicle_sim.wind import LocalWind
 
-CRITICAL, WARNING, INFO = 2, 4, 6  # STATUSTEXT severities
-
 STEP_S = {"simulated": 0.05, "ideal": 1.0}
 LANDED_AFTER_S = 1.3  # on the ground until the land detector believes it (recorded)
 DISARMED_AFTER_S = 2.1  # on the ground until LAND and RTL disarm (recorded)
-PREARM_PERIOD_S = 30.0
 YAW_ALIGNMENT_M = 2.5
 HIGHEST_TAKEOFF_M = 10_000.0
 FASTEST_M_S = 100.0
@@ -62,14 +62,13 @@ class Autopilot:
         self.mode = Mode.STABILIZE
         self.armed = False
         self.flying = False  # the autopilot's belief: from the spool-up until the land detector
-        self.failsafe = False
+        self.failsafes = Failsafes()
         self.texts: list[tuple[int, str]] = []
         self.announce = False
         self.home_news = False  # home or origin was just set: the link sends both unasked
         self._step_s = STEP_S[config.kind]
         self._idle_since_s = started_at_s
-        self._next_prearm_s = started_at_s + PREARM_PERIOD_S
-        self._gcs_heard_at_s: float | None = None
+        self._reminder = Reminder(started_at_s=started_at_s)
         self._yaw_aligned = False
 
     # What a ground station asks for. Each returns whether it was done.
@@ -89,15 +88,10 @@ class Autopilot:
             self.guidance.enter(mode)
         return True
 
-    def complaints(self) -> list[str]:
-        """Why it would not arm, in its own words."""
-        reasons = self.boot.stage.complaints
-        return [text for text in reasons if text != NEED_POSITION or MODES[self.mode].needs_position]
-
     def arm(self, *, forced: bool) -> bool:
         if self.armed:
             return True
-        reasons = [] if forced else self.complaints()
+        reasons = [] if forced else complaints(self)
         if not forced and not MODES[self.mode].armable:
             reasons.append("Mode not armable")
         for reason in reasons:
@@ -116,10 +110,10 @@ class Autopilot:
             return True
         if self.flying and not forced:
             return False
-        self.armed = self.flying = self.failsafe = False
+        self.armed = self.flying = False
         self.announce = True
         self.guidance.enter(self.mode)
-        self._next_prearm_s = self.now_s + PREARM_PERIOD_S
+        self._reminder.restart(self.now_s)
         self.say(INFO, "Disarming motors")
         return True
 
@@ -149,11 +143,7 @@ class Autopilot:
 
     def hear_gcs(self) -> None:
         """A heartbeat of the ground station that the failsafe counts."""
-        self._gcs_heard_at_s = self.now_s
-        if self.failsafe:
-            self.failsafe = False
-            self.announce = True
-            self.say(WARNING, "GCS Failsafe Cleared")
+        self.failsafes.gcs.hear(self.now_s)
 
     # Time.
 
@@ -172,7 +162,9 @@ class Autopilot:
         self.now_s = now_s
         self._drain(span_s)
         self._watch_ground()
-        self._watch_gcs()
+        self.failsafes.watch(self)
+        for text in self._reminder.due(self):
+            self.say(CRITICAL, text)
 
     def say(self, severity: int, text: str) -> None:
         self.texts.append((severity, text))
@@ -183,10 +175,6 @@ class Autopilot:
             self.say(INFO, text)
         if self.boot.stage.origin and not had_origin:
             self.home_news = True
-        if not self.armed and now_s >= self._next_prearm_s - TIME_SLACK_S:
-            self._next_prearm_s = now_s + PREARM_PERIOD_S
-            for reason in self.complaints():
-                self.say(CRITICAL, f"PreArm: {reason}")
 
     def _fly(self, dt_s: float) -> None:
         frame = self.airframe
@@ -223,15 +211,3 @@ class Autopilot:
         delay_s = DISARMED_AFTER_S if landing else self.parameters["DISARM_DELAY"]
         if (landing or delay_s > 0.0) and idle_s >= delay_s and not self.flying:
             self.disarm(forced=False)
-
-    def _watch_gcs(self) -> None:
-        mode = GCS_FAILSAFE_MODES.get(int(self.parameters["FS_GCS_ENABLE"]))
-        if mode is None or self.failsafe or not self.armed or self._gcs_heard_at_s is None:
-            return
-        if self.now_s - self._gcs_heard_at_s > self.parameters["FS_GCS_TIMEOUT"]:
-            self.failsafe = self.announce = True
-            self.say(WARNING, "GCS Failsafe")
-            if self.flying:
-                self.set_mode(mode)
-            else:
-                self.disarm(forced=True)

@@ -36,6 +36,3 @@ MODES: dict[Mode, ModeRow] = {
     Mode.LAND: ModeRow(needs_position=False, armable=False, autonomous=False),
     Mode.BRAKE: ModeRow(needs_position=True, armable=False, autonomous=False),
 }
-
-# FS_GCS_ENABLE -> the mode to change to; values that are not here do nothing.
-GCS_FAILSAFE_MODES: dict[int, Mode] = {1: Mode.RTL, 3: Mode.RTL, 4: Mode.LAND, 5: Mode.LAND, 7: Mode.BRAKE}

@@ -12,6 +12,7 @@ from typing import Any
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
 from comms.frames import GeoPoint, geo_from_enu
+from vehicle_sim.autopilot.arming import complaints
 from vehicle_sim.autopilot.core import Autopilot
 from vehicle_sim.autopilot.modes import MODES
 
@@ -41,7 +42,7 @@ def heartbeat(pilot: Autopilot) -> Any:
     if pilot.armed:
         base |= SAFETY_ARMED
     status = ACTIVE if pilot.flying or pilot.boot.stage.booting else STANDBY
-    if pilot.failsafe:
+    if pilot.failsafes.active:
         status = CRITICAL
     return dialect.MAVLink_heartbeat_message(2, 3, base, int(pilot.mode), status, 3)
 
@@ -57,7 +58,7 @@ def sys_status(pilot: Autopilot) -> Any:
         enabled, healthy = enabled | CONTROLLERS, healthy | CONTROLLERS
     if pilot.armed:
         enabled |= LOGGING
-    if pilot.armed or not pilot.complaints():
+    if pilot.armed or not complaints(pilot):
         healthy |= PREARM
     charge = pilot.charge
     return dialect.MAVLink_sys_status_message(
