@@ -15,15 +15,10 @@ from typing import Any
 
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
+from comms.framing import SIGNED_FLAG, START, frame_bytes
+
 # pymavlink reads this switch from the environment, where any text, "0" too, turns the checksum off.
 dialect.MAVLINK_IGNORE_CRC = False
-
-START = 0xFD
-HEADER_BYTES = 10
-CRC_BYTES = 2
-SIGNATURE_BYTES = 13
-SIGNED_FLAG = 0x01
-MAX_FRAME_BYTES = HEADER_BYTES + 255 + CRC_BYTES + SIGNATURE_BYTES
 
 Message = Any  # a pymavlink message object; its fields depend on its type
 
@@ -77,12 +72,8 @@ class Endpoint:
                 position = end
                 break
             position = start
-            if end - start < HEADER_BYTES + CRC_BYTES:
-                break
-            size = HEADER_BYTES + buffer[start + 1] + CRC_BYTES
-            if buffer[start + 2] & SIGNED_FLAG:
-                size += SIGNATURE_BYTES
-            if end - start < size:
+            size = frame_bytes(buffer, start)
+            if size is None or end - start < size:
                 break
             message = self._decode(buffer[start : start + size])
             if message is None:

@@ -9,7 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
-from comms.mavlink import MAX_FRAME_BYTES, Endpoint
+from comms.framing import MAX_FRAME_BYTES
+from comms.mavlink import Endpoint
 
 # Frames of a recorded ArduCopter 4.5.5 SITL.
 ATTITUDE = bytes.fromhex("fd1c0000e601011e0000f3ec00009c1b753bbb4cd1bcc9ec2d390015743adf5763bb95dca4ba8a79")
