@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 PEERS := .venv-peers
 
-.PHONY: run test test-slow check format bench bench-peers clean
+.PHONY: run test test-slow check format bench bench-vehicles bench-peers clean
 
 run: $(VENV)/ground.done
 	@mkdir -p out
@@ -29,6 +29,9 @@ format: $(VENV)/all.done
 bench: $(VENV)/all.done
 	$(BIN)/python -m tests.benchmarks
 	$(BIN)/python -m tests.benchmarks.study
+
+bench-vehicles: $(VENV)/all.done
+	$(BIN)/python -m tests.benchmarks.vehicles
 
 bench-peers: $(VENV)/all.done $(PEERS)/peers.done
 	$(PEERS)/bin/python -m tests.benchmarks.peers.run --study $(BIN)/python

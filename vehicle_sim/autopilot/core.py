@@ -6,7 +6,7 @@ What it has to say is collected in `texts`; `announce` is set when a heartbeat s
 from __future__ import annotations
 
 from dataclasses import replace
-from math import ceil, isfinite
+from math import ceil
 
 from comms.frames import GeoPoint
 from vehicle_sim.autopilot.arming import Reminder, complaints
@@ -47,8 +47,9 @@ class Autopilot:
         self.started_at_s = self.now_s = started_at_s
         self.wind = LocalWind(config.wind, seed=seed, who=system_id)
         self.parameters = Parameters(
-            system_id=system_id, limits=config.limits, capacity_mah=config.battery.capacity_mah
+            system_id=system_id, limits=config.limits, battery=config.battery, wind=config.wind
         )
+        self.parameters.on_change(LIMIT_NAMES, self._limit)
         self.airframe: Airframe
         if config.kind == "ideal":
             self.airframe = Airframe(limits=config.limits, yaw_rad=heading_rad)
@@ -133,14 +134,6 @@ class Autopilot:
         self.airframe.set_limits(replace(self.airframe.limits, **{field: speed_m_s}))
         return True
 
-    def set_parameter(self, name: str, value: float) -> None:
-        """Store a known parameter; one that is a limit acts at once and ends what DO_CHANGE_SPEED asked for."""
-        if self.parameters.store(name, value):
-            if name in LIMIT_NAMES:
-                self.airframe.set_limits(self.parameters.limits(self.airframe.limits))
-        elif isfinite(value):
-            self.say(WARNING, f"Param write denied ({name})")
-
     def hear_gcs(self) -> None:
         """A heartbeat of the ground station that the failsafe counts."""
         self.failsafes.gcs.hear(self.now_s)
@@ -168,6 +161,10 @@ class Autopilot:
 
     def say(self, severity: int, text: str) -> None:
         self.texts.append((severity, text))
+
+    def _limit(self) -> None:
+        """What the parameters allow acts at once, and ends what DO_CHANGE_SPEED asked for."""
+        self.airframe.set_limits(self.parameters.limits(self.airframe.limits))
 
     def _boot(self, now_s: float) -> None:
         had_origin = self.boot.stage.origin

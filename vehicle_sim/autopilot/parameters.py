@@ -1,77 +1,148 @@
-"""The parameters of an ArduCopter that act here, in its own units. A value travels as a float cast from its C type."""
+"""The parameters of an ArduCopter, in its own units: `parameters.csv` is their table and their manual.
+
+Types, defaults and names are those of a recorded ArduCopter 4.5.5 SITL; names of 4.7 are understood beside them. As in
+ArduCopter a range is advice for ground stations: what a parameter's C type can hold is stored, and whoever reads it
+keeps to what is possible. Rows whose status is `acts` do something here; those `stored` are kept for ground stations.
+"""
 
 from __future__ import annotations
 
+import csv
+from collections.abc import Callable
 from dataclasses import replace
-from math import isfinite
+from importlib.resources import files
+from math import copysign, isfinite
 from typing import NamedTuple
 
+from vehicle_sim.battery import Battery
 from vehicle_sim.flight import FlightLimits
+from vehicle_sim.wind import Wind
 
-INT8, INT16, INT32, REAL32 = 2, 4, 6, 9  # MAV_PARAM_TYPE
-_RANGES = {INT8: (-128, 127), INT16: (-32768, 32767), INT32: (-(2**31), 2**31 - 128), REAL32: (-3.4e38, 3.4e38)}
+TYPES = {"INT8": 2, "INT16": 4, "INT32": 6, "REAL32": 9}  # MAV_PARAM_TYPE
+REAL32 = TYPES["REAL32"]
+HOLDS = {2: (-128, 127), 4: (-32768, 32767), 6: (-(2**31), 2**31 - 128), REAL32: (-3.4e38, 3.4e38)}
+ROUNDING = 0.01  # added before a float is cut to an integer, as ArduPilot does
 
 
 class Row(NamedTuple):
-    """One parameter. A read-only one answers with what it is."""
+    """One parameter.
+
+    Attributes:
+        type: MAV_PARAM_TYPE. lowest, highest: what makes sense, if that is known.
+        status: "acts", "stored" (for ground stations alone) or "read-only" (answers with what it is).
+    """
 
     name: str
     type: int
     default: float
-    read_only: bool = False
+    lowest: float | None
+    highest: float | None
+    unit: str
+    status: str
+    doc: str
+
+    @property
+    def read_only(self) -> bool:
+        return self.status == "read-only"
 
 
-TABLE: tuple[Row, ...] = (
-    Row("ANGLE_MAX", INT16, 3000),  # centidegrees
-    Row("BATT_CAPACITY", INT32, 3300, read_only=True),  # mAh: the battery is what it is
-    Row("DISARM_DELAY", INT8, 10),  # s; 0 never
-    Row("FS_GCS_ENABLE", INT8, 0),
-    Row("FS_GCS_TIMEOUT", REAL32, 5),  # s
-    Row("GUID_TIMEOUT", REAL32, 3),  # s
-    Row("LAND_ALT_LOW", INT16, 1000),  # cm
-    Row("LAND_SPEED", INT16, 50),  # cm/s
-    Row("LAND_SPEED_HIGH", INT16, 0),  # cm/s; 0: WPNAV_SPEED_DN
-    Row("RTL_ALT", INT32, 1500),  # cm above home
-    Row("RTL_ALT_FINAL", INT16, 0),  # cm above home to stay at; 0: land
-    Row("RTL_LOIT_TIME", INT32, 5000),  # ms above home before the descent
-    Row("RTL_SPEED", INT16, 0),  # cm/s; 0: WPNAV_SPEED
-    Row("SYSID_MYGCS", INT16, 255),
-    Row("SYSID_THISMAV", INT16, 1, read_only=True),
-    Row("WPNAV_ACCEL", REAL32, 250),  # cm/s2
-    Row("WPNAV_SPEED", REAL32, 1000),  # cm/s
-    Row("WPNAV_SPEED_DN", REAL32, 150),  # cm/s
-    Row("WPNAV_SPEED_UP", REAL32, 250),  # cm/s
-)
-LIMIT_NAMES = frozenset({"ANGLE_MAX", "WPNAV_ACCEL", "WPNAV_SPEED", "WPNAV_SPEED_DN", "WPNAV_SPEED_UP"})
+def _table() -> tuple[Row, ...]:
+    text = (files(__package__) / "parameters.csv").read_text(encoding="utf-8")
+    return tuple(
+        Row(
+            name=line["name"],
+            type=TYPES[line["type"]],
+            default=float(line["default"]),
+            lowest=float(line["lowest"]) if line["lowest"] else None,
+            highest=float(line["highest"]) if line["highest"] else None,
+            unit=line["unit"],
+            status=line["status"],
+            doc=line["doc"],
+        )
+        for line in csv.DictReader(text.splitlines())
+    )
+
+
+TABLE = _table()
 INDEX: dict[str, int] = {row.name: index for index, row in enumerate(TABLE)}
+
+
+class Alias(NamedTuple):
+    """A name of ArduCopter 4.7: ours is `scale` times its value, plus `offset`."""
+
+    name: str
+    scale: float = 1.0
+    offset: float = 0.0
+
+
+ALIASES: dict[str, Alias] = {
+    "ATC_ANGLE_MAX": Alias("ANGLE_MAX", 100.0),
+    "LAND_ALT_LOW_M": Alias("LAND_ALT_LOW", 100.0),
+    "LAND_SPD_HIGH_MS": Alias("LAND_SPEED_HIGH", 100.0),
+    "LAND_SPD_MS": Alias("LAND_SPEED", 100.0),
+    "MAV_GCS_SYSID": Alias("SYSID_MYGCS"),
+    "MAV_SYSID": Alias("SYSID_THISMAV"),
+    "RTL_ALT_FINAL_M": Alias("RTL_ALT_FINAL", 100.0),
+    "RTL_ALT_M": Alias("RTL_ALT", 100.0),
+    "RTL_SPEED_MS": Alias("RTL_SPEED", 100.0),
+    "SIM_GPS1_ENABLE": Alias("SIM_GPS_DISABLE", -1.0, 1.0),
+    "SIM_GPS1_GLTCH_X": Alias("SIM_GPS_GLITCH_X"),
+    "SIM_GPS1_GLTCH_Y": Alias("SIM_GPS_GLITCH_Y"),
+    "SIM_GPS1_GLTCH_Z": Alias("SIM_GPS_GLITCH_Z"),
+    "SIM_GPS1_NOISE": Alias("SIM_GPS_NOISE"),
+    "SIM_GPS1_NUMSATS": Alias("SIM_GPS_NUMSATS"),
+    "SIM_GPS1_VERR_X": Alias("SIM_GPS_VERR_X"),
+    "SIM_GPS1_VERR_Y": Alias("SIM_GPS_VERR_Y"),
+    "WP_ACC": Alias("WPNAV_ACCEL", 100.0),
+    "WP_RADIUS_M": Alias("WPNAV_RADIUS", 100.0),
+    "WP_SPD": Alias("WPNAV_SPEED", 100.0),
+    "WP_SPD_DN": Alias("WPNAV_SPEED_DN", 100.0),
+    "WP_SPD_UP": Alias("WPNAV_SPEED_UP", 100.0),
+}
+
+Listener = Callable[[], None]
 
 
 class Parameters:
     """One vehicle's parameters: `parameters["RTL_ALT"]` is the stored value."""
 
-    def __init__(self, *, system_id: int, limits: FlightLimits, capacity_mah: float) -> None:
-        self._values = {row.name: float(row.default) for row in TABLE}
+    def __init__(self, *, system_id: int, limits: FlightLimits, battery: Battery, wind: Wind) -> None:
+        self._values = {row.name: row.default for row in TABLE}
         self._values |= {
             "SYSID_THISMAV": float(system_id),
-            "BATT_CAPACITY": float(round(capacity_mah)),
+            "BATT_CAPACITY": float(round(battery.capacity_mah)),
+            "SIM_BATT_VOLTAGE": battery.voltage_v,
+            "SIM_WIND_SPD": wind.speed_m_s,
+            "SIM_WIND_DIR": wind.from_deg,
+            "SIM_WIND_TURB": wind.gust_m_s,
             "ANGLE_MAX": float(round(100.0 * limits.tilt_deg)),
             "WPNAV_SPEED": 100.0 * limits.speed_m_s,
             "WPNAV_SPEED_UP": 100.0 * limits.climb_m_s,
             "WPNAV_SPEED_DN": 100.0 * limits.descent_m_s,
             "WPNAV_ACCEL": 100.0 * limits.acceleration_m_s2,
         }
+        self._listeners: dict[str, Listener] = {}
 
     def __getitem__(self, name: str) -> float:
         return self._values[name]
 
+    def on_change(self, prefixes: tuple[str, ...], listener: Listener) -> None:
+        """Call `listener` whenever a parameter whose name begins with one of `prefixes` is stored."""
+        for name in self._values:
+            if name.startswith(prefixes):
+                self._listeners[name] = listener
+
     def store(self, name: str, value: float) -> bool:
-        """Store `value` as its C type takes it (truncated, clamped). False if it was not: not finite or read-only."""
+        """Store a finite `value` as its C type takes it (cut, clamped). False if it was not: read-only."""
         row = TABLE[INDEX[name]]
         if row.read_only or not isfinite(value):
             return False
-        lowest, highest = _RANGES[row.type]
-        clamped = max(lowest, min(highest, value))
-        self._values[name] = float(clamped if row.type == REAL32 else round(clamped))
+        lowest, highest = HOLDS[row.type]
+        if row.type != REAL32:
+            value = int(max(lowest, min(highest, value + copysign(ROUNDING, value))))
+        self._values[name] = float(max(lowest, min(highest, value)))
+        if name in self._listeners:
+            self._listeners[name]()
         return True
 
     def limits(self, limits: FlightLimits) -> FlightLimits:
@@ -84,6 +155,17 @@ class Parameters:
             acceleration_m_s2=_within(self["WPNAV_ACCEL"] / 100.0, 0.5, 100.0),
             tilt_deg=_within(self["ANGLE_MAX"] / 100.0, 10.0, 80.0),
         )
+
+    def wind(self) -> Wind:
+        """The wind that the parameters ask for."""
+        return Wind(
+            speed_m_s=_within(self["SIM_WIND_SPD"], 0.0, 99.0),
+            from_deg=self["SIM_WIND_DIR"],
+            gust_m_s=_within(self["SIM_WIND_TURB"], 0.0, 99.0),
+        )
+
+
+LIMIT_NAMES = ("ANGLE_MAX", "WPNAV_ACCEL", "WPNAV_SPEED")  # the beginnings of their names
 
 
 def _within(value: float, lowest: float, highest: float) -> float:

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from functools import partial
 from typing import Any
 
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
 from comms.frames import GeoPoint
 from comms.mavlink import Endpoint
+from vehicle_sim.autopilot import parameter_protocol
 from vehicle_sim.autopilot.commands import Request, run, set_mode
 from vehicle_sim.autopilot.core import Autopilot
-from vehicle_sim.autopilot.parameters import INDEX, TABLE
 from vehicle_sim.autopilot.setpoints import global_setpoint, local_setpoint
 from vehicle_sim.autopilot.streams import ALL_GROUPS, GROUPS, Streams
 from vehicle_sim.autopilot.telemetry import BUILDERS
@@ -19,8 +20,6 @@ from vehicle_sim.vehicle import VehicleConfig, VehicleTruth
 
 HEARTBEAT_ID, HOME_ID, ORIGIN_ID = 0, 242, 49
 SET_MODE_ID = 11
-UNKNOWN_INDEX = 65535
-DOES_NOT_EXIST = 1  # MAV_PARAM_ERROR
 TEXT_BYTES = 50
 BYTES_A_TICK = 65536  # more than this from one link in one tick is dropped
 
@@ -60,9 +59,9 @@ class SimulatedVehicle:
         self._handlers: dict[int, Callable[[Any], None]] = {
             dialect.MAVLINK_MSG_ID_HEARTBEAT: self._on_heartbeat,
             dialect.MAVLINK_MSG_ID_SET_MODE: self._on_set_mode,
-            dialect.MAVLINK_MSG_ID_PARAM_REQUEST_READ: self._on_param_read,
-            dialect.MAVLINK_MSG_ID_PARAM_REQUEST_LIST: self._on_param_list,
-            dialect.MAVLINK_MSG_ID_PARAM_SET: self._on_param_set,
+            dialect.MAVLINK_MSG_ID_PARAM_REQUEST_READ: partial(self._on_param, parameter_protocol.read),
+            dialect.MAVLINK_MSG_ID_PARAM_REQUEST_LIST: partial(self._on_param, parameter_protocol.listed),
+            dialect.MAVLINK_MSG_ID_PARAM_SET: partial(self._on_param, parameter_protocol.written),
             dialect.MAVLINK_MSG_ID_REQUEST_DATA_STREAM: self._on_data_stream,
             dialect.MAVLINK_MSG_ID_COMMAND_INT: self._on_command_int,
             dialect.MAVLINK_MSG_ID_COMMAND_LONG: self._on_command_long,
@@ -171,40 +170,6 @@ class SimulatedVehicle:
             for message_id in GROUPS.get(group, ()):
                 self.streams.set_period(message_id, period_s, self.autopilot.now_s)
 
-    def _on_param_list(self, message: Any) -> None:
-        for index in range(len(TABLE)):
-            self._send_param(index, listed=True)
-
-    def _on_param_read(self, message: Any) -> None:
-        index = INDEX.get(message.param_id, -1) if message.param_index < 0 else message.param_index
-        if 0 <= index < len(TABLE):
-            self._send_param(index, listed=True)
-        else:
-            self._no_param(message, message.param_index)
-
-    def _on_param_set(self, message: Any) -> None:
-        if message.param_id not in INDEX:
-            self._no_param(message, -1)
-            return
-        self.autopilot.set_parameter(message.param_id, message.param_value)
-        self._send_param(INDEX[message.param_id], listed=False)
-
-    def _send_param(self, index: int, *, listed: bool) -> None:
-        row = TABLE[index]
-        self.endpoint.send(
-            dialect.MAVLink_param_value_message(
-                row.name.encode(),
-                self.autopilot.parameters[row.name],
-                row.type,
-                len(TABLE),
-                index if listed else UNKNOWN_INDEX,
-            )
-        )
-
-    def _no_param(self, message: Any, index: int) -> None:
-        name = str(message.param_id).encode(errors="replace")[:16]
-        self.endpoint.send(
-            dialect.MAVLink_param_error_message(
-                message.get_srcSystem(), message.get_srcComponent(), name, index, DOES_NOT_EXIST
-            )
-        )
+    def _on_param(self, answer: Callable[[Autopilot, Any], Iterable[Any]], message: Any) -> None:
+        for reply in answer(self.autopilot, message):
+            self.endpoint.send(reply)

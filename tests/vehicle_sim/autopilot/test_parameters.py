@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from math import inf, nan
+from pathlib import Path
 
 import pytest
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
+import vehicle_sim
 from tests.vehicle_sim.autopilot.ground_station import GroundStation, flying, ready, velocity
-from vehicle_sim.autopilot.parameters import TABLE
+from vehicle_sim.autopilot.parameters import ALIASES, HOLDS, INDEX, TABLE
 from vehicle_sim.battery import Battery
 from vehicle_sim.flight import FlightLimits
 from vehicle_sim.vehicle import VehicleConfig
+
+ROOM = Path(vehicle_sim.__file__).parent
 
 # As recorded from a fresh ArduCopter 4.5.5 SITL: default and MAV_PARAM_TYPE-independent.
 RECORDED = {
@@ -49,10 +53,11 @@ def test_limits_and_battery_are_the_missions() -> None:
     ("name", "value", "stored"),
     [
         (b"RTL_ALT", 2200.0, 2200.0),
-        (b"RTL_ALT", 2200.4, 2200.0),  # an int32
+        (b"RTL_ALT", 2200.9, 2200.0),  # an int32: cut
         (b"DISARM_DELAY", 1e9, 127.0),  # an int8
-        (b"WPNAV_SPEED", nan, 1000.0),
-        (b"WPNAV_SPEED", inf, 1000.0),
+        (b"RTL_ALT", 2200.995, 2201.0),  # cut after .01 is added
+        (b"BARO_PRIMARY", -1.5, -1.0),
+        (b"BARO_PRIMARY", -1e9, -128.0),
         (b"GUID_TIMEOUT", 1.5, 1.5),
         (b"SYSID_THISMAV", 9.0, 3.0),  # read-only
     ],
@@ -64,15 +69,61 @@ def test_a_set_is_answered_with_what_is_stored(name: bytes, value: float, stored
     assert heard[0].param_value == stored
 
 
-def test_an_unknown_name_is_an_error_and_nothing_else() -> None:
+def test_what_cannot_be_answered_is_an_error_and_nothing_else() -> None:
     station = ready()
     heard = station.tick(
         dialect.MAVLink_param_set_message(3, 1, b"NO_SUCH_NAME", 1.0, 9),
         dialect.MAVLink_param_request_read_message(3, 1, b"NO_SUCH_NAME", -1),
         dialect.MAVLink_param_request_read_message(3, 1, b"", 999),
+        dialect.MAVLink_param_set_message(3, 1, b"WPNAV_SPEED", nan, 9),
+        dialect.MAVLink_param_set_message(3, 1, b"WPNAV_SPEED", inf, 9),
     )
     errors = [message for message in heard if message.get_type() == "PARAM_ERROR"]
-    assert [(error.error, error.param_index) for error in errors] == [(1, -1), (1, -1), (1, 999)]
+    assert [(error.error, error.param_index) for error in errors] == [(1, -1), (1, -1), (1, 999), (2, -1), (2, -1)]
+    assert not [message for message in heard if message.get_type() == "PARAM_VALUE"]
+    assert station.vehicle.autopilot.parameters["WPNAV_SPEED"] == 1000.0
+
+
+def test_a_read_only_one_says_so() -> None:
+    station = ready()
+    set_param(station, b"SYSID_THISMAV", 9.0)
+    assert station.texts()[-1] == "Param write denied (SYSID_THISMAV)"
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "ours", "stored"),
+    [
+        (b"MAV_GCS_SYSID", 250.0, "SYSID_MYGCS", 250.0),
+        (b"RTL_ALT_M", 22.5, "RTL_ALT", 2250.0),
+        (b"WP_SPD", 7.5, "WPNAV_SPEED", 750.0),
+        (b"SIM_GPS1_ENABLE", 0.0, "SIM_GPS_DISABLE", 1.0),
+    ],
+)
+def test_names_of_4_7_are_the_same_parameters(name: bytes, value: float, ours: str, stored: float) -> None:
+    station = ready()
+    assert set_param(station, name, value) == pytest.approx(value)
+    assert station.vehicle.autopilot.parameters[ours] == pytest.approx(stored)
+    heard = station.tick(dialect.MAVLink_param_request_read_message(3, 1, name, -1))
+    assert (heard[0].param_id, heard[0].param_value) == (name.decode(), pytest.approx(value))
+
+
+def test_the_table_is_in_order() -> None:
+    assert {alias.name for alias in ALIASES.values()} <= set(INDEX)
+    assert not set(ALIASES) & set(INDEX)
+    assert all(len(name) <= 16 for name in (*INDEX, *ALIASES))
+    for row in TABLE:
+        lowest, highest = HOLDS[row.type]
+        assert lowest <= row.default <= highest, row.name
+        assert row.lowest is None or row.lowest <= row.default, row.name
+        assert row.highest is None or row.default <= row.highest, row.name
+        assert row.doc, row.name
+        assert row.status in ("acts", "stored", "read-only"), row.name
+
+
+def test_what_acts_is_read_somewhere() -> None:
+    """A row that says `acts` is named in the source of the autopilot or the world it flies in."""
+    source = "".join(path.read_text(encoding="utf-8") for path in ROOM.rglob("*.py"))
+    assert [row.name for row in TABLE if row.status == "acts" and f'"{row.name}"' not in source] == []
 
 
 def test_speed_and_timeout_act() -> None:
