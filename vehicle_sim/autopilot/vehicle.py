@@ -11,6 +11,7 @@ from pymavlink.dialects.v20 import ardupilotmega as dialect
 from comms.frames import GeoPoint
 from comms.mavlink import Endpoint
 from vehicle_sim.autopilot import parameter_protocol
+from vehicle_sim.autopilot.channel import Channel
 from vehicle_sim.autopilot.commands import Request, run, set_mode
 from vehicle_sim.autopilot.core import Autopilot
 from vehicle_sim.autopilot.setpoints import global_setpoint, local_setpoint
@@ -21,7 +22,6 @@ from vehicle_sim.vehicle import VehicleConfig, VehicleTruth
 HEARTBEAT_ID, HOME_ID, ORIGIN_ID = 0, 242, 49
 SET_MODE_ID = 11
 TEXT_BYTES = 50
-BYTES_A_TICK = 65536  # more than this from one link in one tick is dropped
 
 
 class SimulatedVehicle:
@@ -54,8 +54,8 @@ class SimulatedVehicle:
             seed=seed,
             started_at_s=started_at_s,
         )
-        self.endpoint = Endpoint(system_id=system_id)
-        self.streams = Streams(started_at_s=started_at_s)
+        self.channels: list[Channel] = []
+        self._here = self.open_channel()  # where the message came from that is being handled; the first otherwise
         self._handlers: dict[int, Callable[[Any], None]] = {
             dialect.MAVLINK_MSG_ID_HEARTBEAT: self._on_heartbeat,
             dialect.MAVLINK_MSG_ID_SET_MODE: self._on_set_mode,
@@ -70,16 +70,41 @@ class SimulatedVehicle:
         }
 
     def tick(self, now_s: float, wire_in: bytes = b"") -> bytes:
-        """Take `wire_in` at the time of the last tick, live until `now_s`, and return what it said meanwhile."""
-        for message in self.endpoint.receive(wire_in[:BYTES_A_TICK]):
-            self._receive(message)
+        """Take `wire_in` at the time of the last tick, live until `now_s`, and return what it said meanwhile.
+
+        Both on the first channel; the others' bytes wait in them.
+        """
+        first = self.channels[0]
+        first.hear(wire_in)
+        for channel in self.channels:
+            self._here = channel
+            for message in channel.messages():
+                self._receive(message)
+        self._here = first
         self.autopilot.advance(now_s)
         self._speak()
-        for message_id in self.streams.due(self.autopilot.now_s):
-            report = BUILDERS[message_id](self.autopilot)
-            if report is not None:
-                self.endpoint.send(report)
-        return self.endpoint.take()
+        for channel in self.channels:
+            for message_id in channel.streams.due(self.autopilot.now_s):
+                report = BUILDERS[message_id](self.autopilot)
+                if report is not None:
+                    channel.endpoint.send(report)
+        return first.take()
+
+    def open_channel(self) -> Channel:
+        """One more link to this vehicle, beside those it has."""
+        channel = Channel(system_id=self.autopilot.system_id, started_at_s=self.autopilot.now_s)
+        self.channels.append(channel)
+        return channel
+
+    @property
+    def endpoint(self) -> Endpoint:
+        """Where answers go: the endpoint of the link on which it is being asked."""
+        return self._here.endpoint
+
+    @property
+    def streams(self) -> Streams:
+        """The rates of the link on which it is being asked."""
+        return self._here.streams
 
     @property
     def truth(self) -> VehicleTruth:
@@ -109,18 +134,21 @@ class SimulatedVehicle:
         self._speak()
 
     def _speak(self) -> None:
-        """Send the texts that wait, home if it is new, and a heartbeat when mode or arming changed."""
-        pilot, send = self.autopilot, self.endpoint.send
-        for severity, text in pilot.texts:
-            send(dialect.MAVLink_statustext_message(severity, text.encode()[:TEXT_BYTES]))
+        """Say on every link the texts that wait, home if it is new, and a heartbeat when mode or arming changed."""
+        pilot = self.autopilot
+        news = [
+            dialect.MAVLink_statustext_message(severity, text.encode()[:TEXT_BYTES]) for severity, text in pilot.texts
+        ]
         pilot.texts.clear()
         if pilot.home_news:
             pilot.home_news = False
-            send(BUILDERS[ORIGIN_ID](pilot))
-            send(BUILDERS[HOME_ID](pilot))
+            news += [BUILDERS[ORIGIN_ID](pilot), BUILDERS[HOME_ID](pilot)]
         if pilot.announce:
             pilot.announce = False
-            send(BUILDERS[HEARTBEAT_ID](pilot))
+            news.append(BUILDERS[HEARTBEAT_ID](pilot))
+        for message in news:
+            for channel in self.channels:
+                channel.endpoint.send(message)
 
     def _command(self, message: Any, params: tuple[float, ...]) -> None:
         replies: list[Any] = []

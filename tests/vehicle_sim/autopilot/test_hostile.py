@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
 from tests.vehicle_sim.autopilot.ground_station import SYSTEM, flying, order, velocity
-from vehicle_sim.autopilot.vehicle import BYTES_A_TICK
+from vehicle_sim.autopilot.channel import BYTES_A_TICK
 
 RANGES = {f"uint{bits}_t": (0, 2**bits - 1) for bits in (8, 16, 32, 64)}
 RANGES |= {f"int{bits}_t": (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1) for bits in (8, 16, 32, 64)}
