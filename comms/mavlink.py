@@ -20,6 +20,12 @@ from comms.framing import SIGNED_FLAG, START, frame_bytes
 # pymavlink reads this switch from the environment, where any text, "0" too, turns the checksum off.
 dialect.MAVLINK_IGNORE_CRC = False
 
+# Limits of one call, which is one tick. Some thousand frames in all; no source takes the room of the others, and no
+# party says more than another hears out, its heartbeats included.
+BYTES_IN = 65_536
+BYTES_OF_A_SOURCE = 32_768
+BYTES_OUT = BYTES_OF_A_SOURCE - 1024
+
 Message = Any  # a pymavlink message object; its fields depend on its type
 
 
@@ -29,6 +35,7 @@ class Endpoint:
     Attributes:
         sent, received: frames packed and frames accepted so far.
         bad: rejected stretches of input (bad checksum, unknown message, rubbish between frames, MAVLink 1).
+        dropped: frames that were too many: of one source in one call, or to send; input that was cut off counts as one.
     """
 
     def __init__(self, *, system_id: int, component_id: int = 1) -> None:
@@ -42,11 +49,23 @@ class Endpoint:
         self.sent = 0
         self.received = 0
         self.bad = 0
+        self.dropped = 0
+        self._waiting_bytes = 0
 
     def send(self, message: Message) -> None:
-        """Queue one message; a field that does not fit its wire type is the caller's error and raises."""
+        """Queue one message; a field that does not fit its wire type is the caller's error and raises.
+
+        What does not fit into BYTES_OUT is dropped. Heartbeats have some room of their own: without them a busy party
+        would look lost.
+        """
         codec = self._codec
-        self._outbound.append(message.pack(codec))
+        frame = message.pack(codec)
+        room = BYTES_OF_A_SOURCE if message.get_msgId() == dialect.MAVLINK_MSG_ID_HEARTBEAT else BYTES_OUT
+        if self._waiting_bytes + len(frame) > room:
+            self.dropped += 1
+            return
+        self._outbound.append(frame)
+        self._waiting_bytes += len(frame)
         codec.seq = (codec.seq + 1) % 256
         self.sent += 1
 
@@ -54,12 +73,16 @@ class Endpoint:
         """Everything queued since the last call, in order."""
         wire = b"".join(self._outbound)
         self._outbound.clear()
+        self._waiting_bytes = 0
         return wire
 
     def receive(self, data: bytes) -> list[Message]:
         """The whole, checked messages that `data` completes. An unfinished frame waits for the next call."""
         if not data and not self._inbound:
             return []
+        if len(data) > BYTES_IN:
+            self.dropped += 1
+            data = data[:BYTES_IN]
         buffer = self._inbound
         buffer += data
         messages: list[Message] = []
@@ -83,8 +106,22 @@ class Endpoint:
                 messages.append(message)
                 position = start + size
         del buffer[:position]
+        if position > BYTES_OF_A_SOURCE:
+            messages = self._fair(messages)
         self.received += len(messages)
         return messages
+
+    def _fair(self, messages: list[Message]) -> list[Message]:
+        """The messages without those beyond what one source may send in one call."""
+        spent: dict[tuple[int, int], int] = {}
+        kept: list[Message] = []
+        for message in messages:
+            source = (message.get_srcSystem(), message.get_srcComponent())
+            spent[source] = spent.get(source, 0) + len(message.get_msgbuf())
+            if spent[source] <= BYTES_OF_A_SOURCE:
+                kept.append(message)
+        self.dropped += len(messages) - len(kept)
+        return kept
 
     def _decode(self, frame: bytearray) -> Message | None:
         if frame[2] & ~SIGNED_FLAG:

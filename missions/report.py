@@ -34,6 +34,7 @@ def make_report(flight: Flight, metrics: Metrics, *, wall_s: float, recording: P
     coverage = flight.coverage.mean
     count = flight.air.count
     endpoints = [agent.pilot.endpoint for agent in flight.agents]
+    vehicles = [channel.endpoint for vehicle in flight.vehicles for channel in vehicle.channels]
     return {
         "mission": mission.name,
         "policy": mission.policy.name,
@@ -58,6 +59,12 @@ def make_report(flight: Flight, metrics: Metrics, *, wall_s: float, recording: P
             "sent": sum(end.sent for end in endpoints),
             "received": sum(end.received for end in endpoints),
             "bad": sum(end.bad for end in endpoints),
+            "dropped": sum(end.dropped for end in endpoints),
+            "vehicles": {
+                "received": sum(end.received for end in vehicles),
+                "bad": sum(end.bad for end in vehicles),
+                "dropped": sum(end.dropped for end in vehicles),
+            },
         },
         "faults": [asdict(fault) for fault in metrics.faults],
         "recording": None if recording is None else str(recording),
@@ -113,7 +120,8 @@ def _lines(report: Report) -> Mapping[str, str]:
         f"{helped['taken_over']} taken over",
         "radio": f"{radio['sent']} frames sent, {radio['delivered']} delivered, {radio['out_of_range']} out of range, "
         f"{radio['lost']} lost, {radio['bytes'] / 1e6:.1f} MB",
-        "mavlink": f"{mavlink['sent']} sent, {mavlink['received']} received, {mavlink['bad']} bad",
+        "mavlink": f"{mavlink['sent']} sent, {mavlink['received']} received, {mavlink['bad']} bad, "
+        f"{mavlink['dropped']} dropped",
         "time": f"{timing['wall_s']:.1f} s, {timing['realtime_factor']} times real time from power-on to landed",
     }
     if report["recording"]:

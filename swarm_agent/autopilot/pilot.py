@@ -16,7 +16,6 @@ from swarm_agent.autopilot.state import PilotState
 from swarm_agent.autopilot.streams import Streams
 
 HEARTBEAT_S = 1.0
-MAX_BYTES_PER_TICK = 65_536  # some thousand frames; a source that sends more is not heard out
 CLOCK_SLACK_S = 1e-6  # ticks of 0.1 s do not add up to 1 s exactly
 EVERYBODY = 0
 
@@ -32,7 +31,7 @@ class Pilot:
 
     Attributes:
         config: as given.
-        endpoint: the link's counters: `sent`, `received`, `bad`.
+        endpoint: the link's counters: `sent`, `received`, `bad`, `dropped`.
     """
 
     def __init__(self, config: PilotConfig) -> None:
@@ -99,11 +98,12 @@ class Pilot:
 
     def _hear(self, wire_in: bytes, now_s: float) -> None:
         """Sort the vehicle's messages; those of other systems and of its other components are not for us."""
-        if len(wire_in) > MAX_BYTES_PER_TICK:
-            self._cockpit.say(Level.WARNING, f"{len(wire_in)} bytes in one tick: the rest is dropped")
-            wire_in = wire_in[:MAX_BYTES_PER_TICK]
         cockpit, system_id = self._cockpit, self.config.system_id
-        for message in self.endpoint.receive(wire_in):
+        dropped = self.endpoint.dropped
+        messages = self.endpoint.receive(wire_in)
+        if self.endpoint.dropped > dropped:
+            cockpit.say(Level.WARNING, f"{len(wire_in)} bytes in one tick: not all of it is heard")
+        for message in messages:
             if message.get_srcSystem() != system_id or message.get_srcComponent() != AUTOPILOT_COMPONENT_ID:
                 continue
             kind = type(message)

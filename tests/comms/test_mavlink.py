@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
 from comms.framing import MAX_FRAME_BYTES
-from comms.mavlink import Endpoint
+from comms.mavlink import BYTES_OF_A_SOURCE, BYTES_OUT, Endpoint
 
 # Frames of a recorded ArduCopter 4.5.5 SITL.
 ATTITUDE = bytes.fromhex("fd1c0000e601011e0000f3ec00009c1b753bbb4cd1bcc9ec2d390015743adf5763bb95dca4ba8a79")
@@ -115,3 +115,30 @@ def test_a_system_id_is_one_byte_and_not_zero() -> None:
     for wrong in (0, 256):
         with pytest.raises(ValueError, match="1 to 255"):
             Endpoint(system_id=wrong)
+
+
+def test_a_source_that_sends_too_much_is_not_heard_out_and_the_others_are() -> None:
+    loud, quiet, end = Endpoint(system_id=7), Endpoint(system_id=8), receiver()
+    for _ in range(BYTES_OUT // len(HEARTBEAT)):
+        loud.send(dialect.MAVLink_heartbeat_message(2, 3, 81, 0, 3, 3))
+    quiet.send(dialect.MAVLink_heartbeat_message(2, 3, 81, 0, 3, 3))
+    flood = loud.take()
+    heard = end.receive(flood + flood[:3000] + quiet.take())
+    assert heard[-1].get_srcSystem() == 8
+    assert len(heard) == BYTES_OF_A_SOURCE // len(HEARTBEAT) + 1
+    assert end.dropped == (len(flood) + 3000) // len(HEARTBEAT) + 1 - len(heard)
+    assert len(end.receive(flood)) == len(flood) // len(HEARTBEAT)  # the next tick is another
+
+
+def test_more_than_fits_is_not_sent_but_heartbeats_are() -> None:
+    end = Endpoint(system_id=1)
+    for _ in range(3000):
+        end.send(dialect.MAVLink_attitude_message(0, 1, 1, 1, 1, 1, 1))
+    end.send(dialect.MAVLink_heartbeat_message(2, 3, 81, 0, 3, 3))
+    wire = end.take()
+    assert BYTES_OUT - 40 < len(wire) <= BYTES_OUT + len(HEARTBEAT)
+    heard = receiver().receive(wire)
+    assert names(heard[-1:]) == ["HEARTBEAT"]
+    assert (end.sent, end.dropped) == (len(heard), 3001 - len(heard))
+    end.send(dialect.MAVLink_attitude_message(0, 1, 1, 1, 1, 1, 1))
+    assert end.take()

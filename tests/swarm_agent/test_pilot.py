@@ -362,4 +362,4 @@ class TestWire:
     def test_a_flood_is_cut_and_told(self) -> None:
         pilot = Pilot(config())
         pilot.tick(0.0, b"\xfd" * 70_000, Prepare())
-        assert pilot.take_events()[0].text == "70000 bytes in one tick: the rest is dropped"
+        assert pilot.take_events()[0].text == "70000 bytes in one tick: not all of it is heard"

@@ -5,9 +5,9 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import Any
 
-from comms.mavlink import Endpoint
+from comms.mavlink import BYTES_IN, Endpoint
 from tests.vehicle_sim.autopilot.ground_station import GUIDED, GroundStation, order, ready
-from vehicle_sim.autopilot.channel import BYTES_A_TICK, Channel
+from vehicle_sim.autopilot.channel import Channel
 
 ATTITUDE_ID = 30
 
@@ -76,6 +76,6 @@ def test_a_flood_on_one_link_leaves_the_other_alone() -> None:
     station = ready()
     channel, _ = second_link(station)
     for _ in range(3):
-        channel.hear(bytes(BYTES_A_TICK))
-    assert channel.dropped == 2 * BYTES_A_TICK
+        channel.hear(bytes(BYTES_IN))
+    assert channel.endpoint.dropped == 2
     assert station.order(410) == 0
