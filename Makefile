@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 PEERS := .venv-peers
 
-.PHONY: run test test-slow check format bench bench-vehicles bench-peers clean
+.PHONY: run test test-slow fuzz check format bench bench-vehicles bench-peers clean
 
 run: $(VENV)/ground.done
 	@mkdir -p out
@@ -16,6 +16,10 @@ test: check
 
 test-slow: $(VENV)/all.done
 	$(BIN)/python -m pytest -n 2 --dist loadgroup tests
+
+# A million hostile frames: a minute or two. FUZZ="--seed 7 --jobs 4"; a failure names the seed and episode to repeat.
+fuzz: $(VENV)/all.done
+	$(BIN)/python -m tests.fuzz $(FUZZ)
 
 check: $(VENV)/all.done
 	$(BIN)/ruff format --check .

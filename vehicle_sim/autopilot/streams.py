@@ -26,12 +26,12 @@ class Streams:
         self._due_s: dict[int, float] = {HEARTBEAT_ID: started_at_s}
 
     def set_period(self, message_id: int, period_s: float | None, now_s: float) -> None:
-        """Send every `period_s` from now on; None: not at all (the heartbeat: at its own rate)."""
+        """Send every `period_s` from now on; None: not at all. The heartbeat never slows down: it is a sign of life."""
+        if message_id == HEARTBEAT_ID:
+            period_s = min(period_s or HEARTBEAT_PERIOD_S, HEARTBEAT_PERIOD_S)
         if period_s is None:
             self._periods_s.pop(message_id, None)
             self._due_s.pop(message_id, None)
-            if message_id == HEARTBEAT_ID:
-                self._periods_s[HEARTBEAT_ID], self._due_s[HEARTBEAT_ID] = HEARTBEAT_PERIOD_S, now_s
             return
         self._periods_s[message_id] = period_s
         self._due_s[message_id] = now_s

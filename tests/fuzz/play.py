@@ -1,0 +1,79 @@
+"""Play an episode, and make one that fails as small as it gets."""
+
+from __future__ import annotations
+
+import traceback
+from collections import Counter
+from typing import NamedTuple
+
+from tests.fuzz.episode import Episode, Shot
+from tests.fuzz.subjects import SUBJECTS
+
+
+class Failure(NamedTuple):
+    """What went wrong: in which shot, after how many frames, the kind of error and where it came from."""
+
+    shot: int
+    frame: int
+    what: str
+    trace: str
+
+
+def play(episode: Episode, states: Counter[str] | None = None) -> Failure | None:
+    """Play it to its end or its failure. `states` counts the ticks in each state."""
+    subject = SUBJECTS[episode.subject](episode)
+    frames = 0
+    for number, shot in enumerate(episode.shots):
+        frames += len(shot.wires)
+        try:
+            subject.take(shot)
+            if number == len(episode.shots) - 1:
+                subject.finish()
+        except Exception as error:  # any exception is a finding
+            return Failure(number, frames, _name(error), "".join(traceback.format_exception(error)))
+        if states is not None:
+            states[subject.state] += 1
+    return None
+
+
+def shrink(episode: Episode, failure: Failure) -> tuple[Episode, Failure]:
+    """The same failure with fewer frames, then with fewer shots: halves, quarters and so on are left out in turn."""
+    shots = episode.shots[: failure.shot + 1]
+    smallest, last = episode._replace(shots=shots), failure
+    for cut in (_without_frames, _without_shots):
+        size = max(1, cut(smallest, 0, 0).frames if cut is _without_frames else len(smallest.shots)) // 2
+        while size:
+            start = 0
+            while start < _length(cut, smallest):
+                candidate = cut(smallest, start, start + size)
+                again = play(candidate)
+                if again is not None and again.what == failure.what:
+                    smallest, last = candidate, again
+                else:
+                    start += size
+            size //= 2
+    return smallest, last
+
+
+def _length(cut: object, episode: Episode) -> int:
+    return episode.frames if cut is _without_frames else len(episode.shots)
+
+
+def _without_frames(episode: Episode, start: int, stop: int) -> Episode:
+    shots: list[Shot] = []
+    number = 0
+    for shot in episode.shots:
+        kept = tuple(wire for k, wire in enumerate(shot.wires, number) if not start <= k < stop)
+        number += len(shot.wires)
+        shots.append(shot._replace(wires=kept))
+    return episode._replace(shots=tuple(shots))
+
+
+def _without_shots(episode: Episode, start: int, stop: int) -> Episode:
+    return episode._replace(shots=episode.shots[:start] + episode.shots[stop:])
+
+
+def _name(error: Exception) -> str:
+    """The kind of a failure, by which a smaller one counts as the same: its type and the line that raised it."""
+    last = traceback.extract_tb(error.__traceback__)[-1]
+    return f"{type(error).__name__} in {last.name}, line {last.lineno} of {last.filename.rpartition('/')[2]}"
