@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING
 
 from vehicle_sim.autopilot.boot import NEED_POSITION
-from vehicle_sim.autopilot.guidance import TIME_SLACK_S
 from vehicle_sim.autopilot.modes import MODES
+from vehicle_sim.autopilot.steering import TIME_SLACK_S
 
 if TYPE_CHECKING:
     from vehicle_sim.autopilot.core import Autopilot

@@ -80,7 +80,7 @@ def _arm_disarm(request: Request) -> Result:
 
 
 def _takeoff(request: Request) -> Result:
-    return _done(request.pilot.take_off(request.params[6]))
+    return _done(request.pilot.take_off(request.params[6], navigates=request.params[2] == 0.0))
 
 
 def _land(request: Request) -> Result:

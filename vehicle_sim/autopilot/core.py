@@ -12,10 +12,12 @@ from comms.frames import GeoPoint
 from vehicle_sim.autopilot.arming import Reminder, complaints
 from vehicle_sim.autopilot.boot import Boot
 from vehicle_sim.autopilot.failsafes import Failsafes
-from vehicle_sim.autopilot.guidance import TIME_SLACK_S, Guidance
+from vehicle_sim.autopilot.guidance import Guidance
 from vehicle_sim.autopilot.modes import MODES, Mode
 from vehicle_sim.autopilot.parameters import LIMIT_NAMES, Parameters
 from vehicle_sim.autopilot.severity import CRITICAL, INFO, WARNING
+from vehicle_sim.autopilot.steering import TIME_SLACK_S
+from vehicle_sim.autopilot.sticks import NO_RADIO, TIMEOUT_S, Sticks
 from vehicle_sim.battery import IDLE_SHARE, Charge
 from vehicle_sim.flight import Airframe, Multirotor
 from vehicle_sim.vehicle import VehicleConfig
@@ -49,7 +51,6 @@ class Autopilot:
         self.parameters = Parameters(
             system_id=system_id, limits=config.limits, battery=config.battery, wind=config.wind
         )
-        self.parameters.on_change(LIMIT_NAMES, self._limit)
         self.airframe: Airframe
         if config.kind == "ideal":
             self.airframe = Airframe(limits=config.limits, yaw_rad=heading_rad)
@@ -59,18 +60,20 @@ class Autopilot:
             )
         self.charge = Charge(config.battery)
         self.boot = Boot(boot_s=config.boot_s, field_elevation_m=home.altitude_m)
-        self.guidance = Guidance(airframe=self.airframe, parameters=self.parameters)
+        self.texts: list[tuple[int, str]] = []
+        self.guidance = Guidance(airframe=self.airframe, parameters=self.parameters, say=self.say)
+        self.parameters.on_change(LIMIT_NAMES, self.guidance.retune)
         self.mode = Mode.STABILIZE
         self.armed = False
         self.flying = False  # the autopilot's belief: from the spool-up until the land detector
         self.failsafes = Failsafes()
-        self.texts: list[tuple[int, str]] = []
         self.announce = False
         self.home_news = False  # home or origin was just set: the link sends both unasked
         self._step_s = STEP_S[config.kind]
         self._idle_since_s = started_at_s
         self._reminder = Reminder(started_at_s=started_at_s)
         self._yaw_aligned = False
+        self._sticks_until_s = started_at_s
 
     # What a ground station asks for. Each returns whether it was done.
 
@@ -83,10 +86,14 @@ class Autopilot:
         if self.armed and MODES[mode].needs_position and not self.boot.stage.position:
             self.say(WARNING, f"Mode change to {mode.name} failed: requires position")
             return False
-        if mode is not self.mode:
-            self.mode = mode
-            self.announce = True
-            self.guidance.enter(mode)
+        if mode is self.mode:
+            return True
+        if not self.guidance.can_enter(mode):
+            self.say(WARNING, f"Mode change to {mode.name} failed: init failed")
+            return False
+        self.mode = mode
+        self.announce = True
+        self.guidance.enter(mode, self.now_s)
         return True
 
     def arm(self, *, forced: bool) -> bool:
@@ -102,7 +109,9 @@ class Autopilot:
         self.armed = self.announce = True
         self.home_news = self.boot.stage.origin
         self._idle_since_s = self.now_s
-        self.guidance.enter(self.mode)
+        self.guidance.enter(self.mode, self.now_s)
+        if self.boot.stage.position:
+            self.guidance.breadcrumbs.begin(self.guidance.steering.place_ned_m)
         self.say(INFO, "Arming motors")
         return True
 
@@ -113,21 +122,22 @@ class Autopilot:
             return False
         self.armed = self.flying = False
         self.announce = True
-        self.guidance.enter(self.mode)
+        self.guidance.enter(self.mode, self.now_s)
         self._reminder.restart(self.now_s)
         self.say(INFO, "Disarming motors")
         return True
 
-    def take_off(self, altitude_m: float) -> bool:
-        """Take off to `altitude_m` above home. Only armed, in GUIDED, on the ground, and to a sane altitude."""
-        ready = self.armed and self.mode is Mode.GUIDED and not self.flying and not self.guidance.taking_off
+    def take_off(self, altitude_m: float, *, navigates: bool = True) -> bool:
+        """Take off to `altitude_m` above home. Only armed, on the ground, in a mode for it, and to a sane altitude."""
+        able = MODES[self.mode].takes_off and (MODES[self.mode].needs_position or not navigates)
+        ready = self.armed and able and not self.flying and not self.guidance.taking_off
         if not ready or not 0.0 < altitude_m <= HIGHEST_TAKEOFF_M:  # NaN compares false
             return False
         self.guidance.take_off(altitude_m, self.now_s)
         return True
 
     def change_speed(self, kind: int, speed_m_s: float) -> bool:
-        """Another speed limit until the parameters change: 0 and 1 over ground, 2 climb, 3 descent."""
+        """Another speed limit until the mode or a limit changes: 0 and 1 over ground, 2 climb, 3 descent."""
         field = {0: "speed_m_s", 1: "speed_m_s", 2: "climb_m_s", 3: "descent_m_s"}.get(kind)
         if field is None or not 0.0 < speed_m_s <= FASTEST_M_S:
             return False
@@ -138,6 +148,11 @@ class Autopilot:
         """A heartbeat of the ground station that the failsafe counts."""
         self.failsafes.gcs.hear(self.now_s)
 
+    def take_sticks(self, sticks: Sticks) -> None:
+        """A pilot's hands; without news of them for TIMEOUT_S the sticks are let go."""
+        self.guidance.steering.sticks = sticks
+        self._sticks_until_s = self.now_s + TIMEOUT_S
+
     # Time.
 
     def advance(self, now_s: float) -> None:
@@ -146,6 +161,8 @@ class Autopilot:
         if span_s <= 0.0:
             return
         self._boot(now_s)
+        if self.now_s > self._sticks_until_s:
+            self.guidance.steering.sticks = NO_RADIO
         steps = max(1, ceil(span_s / self._step_s - 1e-6))
         dt_s = span_s / steps
         began_s = self.now_s
@@ -154,6 +171,8 @@ class Autopilot:
             self._fly(dt_s)
         self.now_s = now_s
         self._drain(span_s)
+        if self.flying:
+            self.guidance.drop_crumb()
         self._watch_ground()
         self.failsafes.watch(self)
         for text in self._reminder.due(self):
@@ -161,10 +180,6 @@ class Autopilot:
 
     def say(self, severity: int, text: str) -> None:
         self.texts.append((severity, text))
-
-    def _limit(self) -> None:
-        """What the parameters allow acts at once, and ends what DO_CHANGE_SPEED asked for."""
-        self.airframe.set_limits(self.parameters.limits(self.airframe.limits))
 
     def _boot(self, now_s: float) -> None:
         had_origin = self.boot.stage.origin
@@ -202,7 +217,7 @@ class Autopilot:
         if not self.armed or self.guidance.taking_off:
             return
         idle_s = self.now_s - self._idle_since_s + TIME_SLACK_S
-        landing = self.mode in (Mode.LAND, Mode.RTL)
+        landing = MODES[self.mode].lands
         if self.flying and idle_s >= LANDED_AFTER_S:
             self.flying = False
         delay_s = DISARMED_AFTER_S if landing else self.parameters["DISARM_DELAY"]

@@ -32,8 +32,8 @@ ACTION_MODES: dict[Action, tuple[Mode, ...]] = {
     Action.NONE: (),
     Action.LAND: (Mode.LAND,),
     Action.RTL: (Mode.RTL, Mode.LAND),
-    Action.SMART_RTL_OR_RTL: (Mode.RTL, Mode.LAND),
-    Action.SMART_RTL_OR_LAND: (Mode.LAND,),
+    Action.SMART_RTL_OR_RTL: (Mode.SMART_RTL, Mode.RTL, Mode.LAND),
+    Action.SMART_RTL_OR_LAND: (Mode.SMART_RTL, Mode.LAND),
     Action.TERMINATE: (),
     Action.BRAKE_OR_LAND: (Mode.BRAKE, Mode.LAND),
 }

@@ -165,7 +165,7 @@ class Parameters:
         )
 
 
-LIMIT_NAMES = ("ANGLE_MAX", "WPNAV_ACCEL", "WPNAV_SPEED")  # the beginnings of their names
+LIMIT_NAMES = ("ANGLE_MAX", "PILOT_SPEED", "WPNAV_ACCEL", "WPNAV_SPEED")  # the beginnings of their names
 
 
 def _within(value: float, lowest: float, highest: float) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from vehicle_sim.autopilot.guidance import TIME_SLACK_S
+from vehicle_sim.autopilot.steering import TIME_SLACK_S
 
 HEARTBEAT_ID = 0
 HEARTBEAT_PERIOD_S = 1.0

@@ -15,6 +15,7 @@ from vehicle_sim.autopilot.channel import Channel
 from vehicle_sim.autopilot.commands import Request, run, set_mode
 from vehicle_sim.autopilot.core import Autopilot
 from vehicle_sim.autopilot.setpoints import global_setpoint, local_setpoint
+from vehicle_sim.autopilot.sticks import Sticks, manual, overridden
 from vehicle_sim.autopilot.streams import ALL_GROUPS, GROUPS, Streams
 from vehicle_sim.autopilot.telemetry import BUILDERS
 from vehicle_sim.vehicle import VehicleConfig, VehicleTruth
@@ -65,6 +66,8 @@ class SimulatedVehicle:
             dialect.MAVLINK_MSG_ID_REQUEST_DATA_STREAM: self._on_data_stream,
             dialect.MAVLINK_MSG_ID_COMMAND_INT: self._on_command_int,
             dialect.MAVLINK_MSG_ID_COMMAND_LONG: self._on_command_long,
+            dialect.MAVLINK_MSG_ID_RC_CHANNELS_OVERRIDE: self._on_rc_override,
+            dialect.MAVLINK_MSG_ID_MANUAL_CONTROL: self._on_manual_control,
             dialect.MAVLINK_MSG_ID_SET_POSITION_TARGET_LOCAL_NED: self._on_local_target,
             dialect.MAVLINK_MSG_ID_SET_POSITION_TARGET_GLOBAL_INT: self._on_global_target,
         }
@@ -189,6 +192,18 @@ class SimulatedVehicle:
     def _on_global_target(self, message: Any) -> None:
         setpoint = global_setpoint(message, home=self.autopilot.home)
         self.autopilot.guidance.follow(setpoint, self.autopilot.now_s)
+
+    def _on_rc_override(self, message: Any) -> None:
+        self._on_sticks(message, overridden)
+
+    def _on_manual_control(self, message: Any) -> None:
+        if message.target == self.endpoint.system_id:
+            self._on_sticks(message, manual)
+
+    def _on_sticks(self, message: Any, read: Callable[[Sticks, Any], Sticks]) -> None:
+        """Only the ground station of SYSID_MYGCS is a pilot, as on a real ArduCopter."""
+        if message.get_srcSystem() == self.autopilot.parameters["SYSID_MYGCS"]:
+            self.autopilot.take_sticks(read(self.autopilot.guidance.steering.sticks, message))
 
     def _on_data_stream(self, message: Any) -> None:
         rate_hz = message.req_message_rate if message.start_stop else 0

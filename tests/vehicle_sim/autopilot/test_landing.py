@@ -7,7 +7,7 @@ from itertools import pairwise
 import pytest
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
-from tests.vehicle_sim.autopilot.ground_station import GUIDED, LAND, RTL, GroundStation, flying, velocity
+from tests.vehicle_sim.autopilot.ground_station import GUIDED, LAND, RTL, GroundStation, flying, position, velocity
 
 ON_GROUND, IN_AIR, LANDING = 1, 2, 4
 
@@ -72,10 +72,20 @@ def test_rtl_from_above_rtl_alt_stays_up_and_rtl_alt_is_a_parameter() -> None:
     station.tick(seconds=3.0)
     assert -station.vehicle.truth.position_ned_m[2] == pytest.approx(20.0, abs=0.1)
     station.order(176, 1, GUIDED)
+    for _ in range(100):
+        station.tick(velocity(2.0))  # out of the cone above home, in which it need not climb
     set_param(station, b"RTL_ALT", 3000.0)
     station.order(20)
     heights = until_disarmed(station)
     assert max(height for _, height in heights) == pytest.approx(30.0, abs=0.2)
+
+
+def test_rtl_near_home_climbs_no_higher_than_the_cone() -> None:
+    station = flying(altitude_m=3.0)
+    station.tick(position(2.0, 0.0, -3.0), seconds=10.0)
+    station.order(20)
+    heights = until_disarmed(station)
+    assert max(height for _, height in heights) == pytest.approx(6.0, abs=0.3)  # RTL_CONE_SLOPE 3 times 2 m
 
 
 def test_rtl_alt_final_stays_there() -> None:

@@ -1,0 +1,95 @@
+"""The moves that every mode is made of: towards a place, up or down to a height, round to a heading, down to land.
+
+Positions are reached with ArduPilot's square-root controller: proportional near the goal, constant braking further out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import copysign, hypot, sqrt
+
+from comms.frames import Vec3
+from vehicle_sim.autopilot.parameters import Parameters
+from vehicle_sim.autopilot.sticks import NO_RADIO, Sticks
+from vehicle_sim.flight import Airframe, Demand, wrap_pi
+
+APPROACH_GAIN_1_S = 0.5
+APPROACH_BRAKING = 0.8  # of the acceleration limit
+CLIMB_GAIN_1_S = 1.0
+CLIMB_BRAKING_M_S2 = 0.52  # recorded: v^2 over twice the way left at the end of a takeoff
+YAW_GAIN_1_S = 2.0
+YAW_RATE_MAX_RAD_S = 1.05
+TIME_SLACK_S = 1e-6  # a clock that counts tenths is never exact
+
+
+class Steering:
+    """One vehicle's moves. Places are north-east-down meters in its own frame; demands are for its airframe.
+
+    Attributes:
+        home_ned_m: where RTL goes; moves with DO_SET_HOME. sticks: what a pilot holds.
+        say: a text (severity, words) for the ground.
+    """
+
+    def __init__(self, *, airframe: Airframe, parameters: Parameters, say: Callable[[int, str], None]) -> None:
+        self.airframe = airframe
+        self.parameters = parameters
+        self.say = say
+        self.home_ned_m: Vec3 = (0.0, 0.0, 0.0)
+        self.sticks: Sticks = NO_RADIO
+
+    @property
+    def place_ned_m(self) -> Vec3:
+        frame = self.airframe
+        return frame.north_m, frame.east_m, frame.down_m
+
+    @property
+    def height_m(self) -> float:
+        """Above home."""
+        return self.home_ned_m[2] - self.airframe.down_m
+
+    def distance_m(self, place_ned_m: Vec3) -> float:
+        """Over ground."""
+        return hypot(place_ned_m[0] - self.airframe.north_m, place_ned_m[1] - self.airframe.east_m)
+
+    def towards(self, goal_ned_m: Vec3, *, speed_m_s: float = 0.0, yaw_rate_rad_s: float = 0.0) -> Demand:
+        """Straight to a place, at most at `speed_m_s` over ground (0: the speed limit)."""
+        frame = self.airframe
+        north, east = goal_ned_m[0] - frame.north_m, goal_ned_m[1] - frame.east_m
+        distance_m = hypot(north, east)
+        braking_m_s2 = APPROACH_BRAKING * frame.limits.acceleration_m_s2
+        speed = approach_m_s(distance_m, gain_1_s=APPROACH_GAIN_1_S, braking_m_s2=braking_m_s2)
+        if speed_m_s > 0.0:
+            speed = min(speed, speed_m_s)
+        share = speed / distance_m if distance_m > 1e-9 else 0.0
+        return Demand(north * share, east * share, self.climb_m_s(goal_ned_m[2]), yaw_rate_rad_s)
+
+    def climb_m_s(self, goal_down_m: float) -> float:
+        """The vertical speed (down positive) that brings it to a height."""
+        way_m = goal_down_m - self.airframe.down_m
+        speed = approach_m_s(abs(way_m), gain_1_s=CLIMB_GAIN_1_S, braking_m_s2=CLIMB_BRAKING_M_S2)
+        return copysign(speed, way_m)
+
+    def sink_m_s(self) -> float:
+        """A landing's speed: WPNAV_SPEED_DN (or LAND_SPEED_HIGH) above LAND_ALT_LOW, LAND_SPEED below."""
+        slow_m_s = max(0.1, self.parameters["LAND_SPEED"] / 100.0)
+        fast_m_s = self.parameters["LAND_SPEED_HIGH"] / 100.0 or self.airframe.limits.descent_m_s
+        above_m = self.height_m - max(1.0, self.parameters["LAND_ALT_LOW"] / 100.0)
+        braking_m_s = approach_m_s(above_m, gain_1_s=CLIMB_GAIN_1_S, braking_m_s2=CLIMB_BRAKING_M_S2)
+        return max(slow_m_s, min(fast_m_s, braking_m_s))
+
+    def turn_rad_s(self, yaw_rad: float | None, yaw_rate_rad_s: float | None = None) -> float:
+        """The yaw rate that turns the nose to `yaw_rad`; without one, the rate itself."""
+        rate = yaw_rate_rad_s or 0.0
+        if yaw_rad is not None:
+            rate = YAW_GAIN_1_S * wrap_pi(yaw_rad - self.airframe.yaw_rad)
+        return max(-YAW_RATE_MAX_RAD_S, min(YAW_RATE_MAX_RAD_S, rate))
+
+
+def approach_m_s(distance_m: float, *, gain_1_s: float, braking_m_s2: float) -> float:
+    """How fast to approach what is `distance_m` away: ArduPilot's sqrt_controller. Negative distances are reached."""
+    if distance_m <= 0.0:
+        return 0.0
+    linear_m = braking_m_s2 / (gain_1_s * gain_1_s)
+    if distance_m <= linear_m:
+        return gain_1_s * distance_m
+    return sqrt(2.0 * braking_m_s2 * (distance_m - 0.5 * linear_m))
