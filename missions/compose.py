@@ -9,7 +9,7 @@ from comms.chance import PLACE_AGENT
 from comms.frames import GeoPoint, enu_from_geo, geo_from_enu
 from comms.keys import Keys
 from comms.session import Bus
-from missions.mission import Mission, TrackTargets, system_id
+from missions.mission import CircleFence, Disc, Mission, PolygonFence, TrackTargets, system_id
 from missions.rules import start_places
 from missions.targets import herd
 from missions.training.weights import BUNDLED, read_weights
@@ -17,6 +17,8 @@ from swarm_agent.agent import Agent, AgentConfig
 from swarm_agent.autopilot import PilotConfig
 from swarm_agent.bcmommt.net import BLANK, Net
 from swarm_agent.bcmommt.params import Call, Capture, Explore, Gate, Params, Policy, Predictor, with_range
+from swarm_agent.fence import Fence, circle, polygon
+from swarm_agent.safety import SafetyConfig, stopping_distance_m
 from vehicle_sim.autopilot import SimulatedVehicle
 from vehicle_sim.battery import Battery
 from vehicle_sim.flight import FlightLimits
@@ -28,6 +30,8 @@ from vehicle_sim.world import World
 
 Place = tuple[float, float]
 
+# Beyond the arena and the way to stop in it.
+FENCE_MARGIN_M = 10.0
 # A frame is worth hearing for a few ticks beyond its latency; then its sender is somewhere else.
 FRAME_LIVES_TICKS = 5
 _POLICIES = {
@@ -120,7 +124,7 @@ def _nets(mission: Mission) -> tuple[Net, Net]:
 
 def agents(mission: Mission, n_targets: int) -> list[Agent]:
     """Every agent, by uid."""
-    shared = params(mission)
+    shared, around = params(mission), fence(mission)
     ttl_s = mission.radio.latency_s + FRAME_LIVES_TICKS * mission.tick_s
     return [
         Agent(
@@ -140,10 +144,37 @@ def agents(mission: Mission, n_targets: int) -> list[Agent]:
                     max_speed_m_s=mission.agents.speed_m_s,
                     max_climb_m_s=min(mission.vehicle.limits.climb_m_s, mission.vehicle.limits.descent_m_s, 10.0),
                 ),
+                safety=SafetyConfig(
+                    uid=uid,
+                    fence=around,
+                    # Ideal vehicles are points, which cannot collide: their missions are those of a study.
+                    separation_m=0.0 if mission.vehicle.kind == "ideal" else mission.safety.separation_m,
+                    max_speed_m_s=mission.agents.speed_m_s,
+                    acceleration_m_s2=mission.vehicle.limits.acceleration_m_s2,
+                    battery_reserve=mission.safety.battery_reserve,
+                ),
             )
         )
         for uid, first in enumerate(headings(mission))
     ]
+
+
+def fence(mission: Mission) -> Fence:
+    """What no agent may leave, as the agents know it."""
+    given, arena = mission.safety.fence, mission.arena
+    if isinstance(given, PolygonFence):
+        return polygon(given.corners_m)
+    if isinstance(given, CircleFence):
+        return circle(given.radius_m)
+    margin_m = given.margin_m
+    if margin_m is None:
+        margin_m = FENCE_MARGIN_M + stopping_distance_m(
+            mission.agents.speed_m_s, mission.vehicle.limits.acceleration_m_s2
+        )
+    if isinstance(arena, Disc):
+        return circle(arena.radius_m + margin_m)
+    east, north = arena.width_m / 2 + margin_m, arena.height_m / 2 + margin_m
+    return polygon([(east, north), (-east, north), (-east, -north), (east, -north)])
 
 
 def vehicles(mission: Mission) -> list[SimulatedVehicle]:

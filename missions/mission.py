@@ -33,11 +33,13 @@ Positive = Annotated[float, Field(gt=0)]
 NonNegative = Annotated[float, Field(ge=0)]
 # What a frame on the radio and an autopilot's local frame can hold, with room to spare.
 Extent = Annotated[float, Field(gt=0, le=50_000)]
+Reach = Annotated[float, Field(ge=-50_000, le=50_000)]
 Span = Annotated[float, Field(ge=0, le=3600)]
 Charge = Annotated[float, Field(gt=0, lt=1_000_000)]
 Airspeed = Annotated[float, Field(ge=0, lt=100)]
 SpeedLimit = Annotated[float, Field(ge=0.1, le=100)]
 Bearing = Annotated[float, Field(ge=0, lt=360)]
+CORNERS = "a list of 3 to 64 corners [east, north], each number from -50000 to 50000"
 NAME = "a word of letters, digits, '_', '.' and '-', at most 64 long, that starts with a letter or digit"
 Name = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_.\-]{0,63}$"), Allowed(NAME)]
 
@@ -320,6 +322,58 @@ class Vehicle(Part):
     """What it flies on."""
 
 
+class ArenaFence(Part):
+    """A geofence around the arena."""
+
+    shape: Literal["arena"] = "arena"
+    """The fence's shape: the arena's, and wider."""
+    margin_m: Annotated[float | None, Field(ge=0, le=10_000)] = None
+    """How far beyond the arena it runs; null: as far as an agent needs to stop, and 10 m more."""
+
+
+class CircleFence(Part):
+    """A round geofence, centered on home."""
+
+    shape: Literal["circle"]
+    """The fence's shape."""
+    radius_m: Extent = 60.0
+    """Its radius."""
+
+
+class PolygonFence(Part):
+    """A geofence with corners."""
+
+    shape: Literal["polygon"]
+    """The fence's shape."""
+    corners_m: Annotated[
+        tuple[Annotated[tuple[Reach, Reach], Field(strict=False)], ...],
+        Field(strict=False, min_length=3, max_length=64),
+        Allowed(CORNERS),
+    ]
+    """Its corners in order, each meters east and north of home."""
+
+
+FenceShape = Annotated[
+    Annotated[ArenaFence, Tag("arena")]
+    | Annotated[CircleFence, Tag("circle")]
+    | Annotated[PolygonFence, Tag("polygon")],
+    Discriminator(_tag_by("shape", {"arena": "arena", "circle": "circle", "polygon": "polygon"})),
+]
+
+
+class Safety(Part):
+    """What every agent keeps to, whatever its policy wants."""
+
+    fence: FenceShape = ArenaFence()
+    """What no agent flies out of."""
+    ceiling_m: Annotated[float, Field(gt=0, le=500)] = 500.0
+    """No layer is higher above home."""
+    separation_m: Annotated[float, Field(ge=0, le=1000)] = 2.0
+    """Least horizontal distance between agents that share a layer; ideal vehicles, being points, do not keep it."""
+    battery_reserve: Annotated[float, Field(ge=0, lt=1)] = 0.0
+    """An agent comes home when its battery has this share left."""
+
+
 class Mission(Part):
     """A whole mission: who flies where, over what, and how it decides."""
 
@@ -347,6 +401,8 @@ class Mission(Part):
     """How agents decide."""
     vehicle: Vehicle = Vehicle()
     """What carries an agent."""
+    safety: Safety = Safety()
+    """What every agent keeps to."""
 
     @property
     def target_sensing_range_m(self) -> float:

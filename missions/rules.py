@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 from comms.arena import edge_distance_m
 from comms.chance import PLACE_AGENT
-from missions.mission import Mission, MovingTargets, TrackTargets
+from missions.mission import CircleFence, Mission, MovingTargets, PolygonFence, TrackTargets
 from missions.problems import InputError, Path, shown
 from missions.training.weights import read_weights
+from swarm_agent.fence import encloses
 from vehicle_sim.placement import scatter
 
 _TOLERANCE = 1e-9
-HIGHEST_M = 500.0  # what pilots fly at most
 MOST_CELLS = 20_000  # of the arena, each as wide as the sensing range; every agent remembers when it was seen
 
 
@@ -158,7 +158,24 @@ def _weights_are_readable(mission: Mission) -> str | None:
 def _layers_are_low(mission: Mission) -> str | None:
     altitude = mission.agents.altitude
     top_m = max(altitude.of_agent(uid) for uid in range(mission.agents.count))
-    return None if top_m <= HIGHEST_M else f"less: the highest layer is at {shown(top_m)}, above {shown(HIGHEST_M)}"
+    ceiling_m = mission.safety.ceiling_m
+    return None if top_m <= ceiling_m else f"less: the highest layer is at {shown(top_m)}, above {shown(ceiling_m)}"
+
+
+def _circle_fences_the_start(mission: Mission) -> str | None:
+    fence, radius_m = mission.safety.fence, mission.agents.deployment.radius_m
+    if not isinstance(fence, CircleFence) or fence.radius_m > radius_m:
+        return None
+    return f"more than agents.deployment.radius_m ({shown(radius_m)})"
+
+
+def _corners_fence_the_start(mission: Mission) -> str | None:
+    fence = mission.safety.fence
+    if not isinstance(fence, PolygonFence):
+        return None
+    places = start_places(mission) or ()
+    outside = [uid for uid, (x, y) in enumerate(places) if not encloses(fence.corners_m, x, y)]
+    return f"corners around every starting place (agent {outside[0]} starts outside)" if outside else None
 
 
 def _search_has_few_cells(mission: Mission) -> str | None:
@@ -170,6 +187,7 @@ def _search_has_few_cells(mission: Mission) -> str | None:
 
 
 _SENSING = tuple(f"agents.sensing.{key}" for key in ("range_m", "field_of_view", "half_angle_deg"))
+_START = ("agents.deployment.radius_m", "agents.deployment.spacing_m", "agents.count", "seed")
 _ARENA = ("arena", "arena.radius_m", "arena.width_m", "arena.height_m")
 
 RULES = (
@@ -178,7 +196,9 @@ RULES = (
     Rule("agents.deployment.radius_m", _ARENA, _agents_start_inside),
     Rule("targets.deployment.radius_m", _ARENA, _targets_start_inside),
     Rule("agents.deployment.spacing_m", ("agents.deployment.radius_m", "agents.count", "seed"), _agents_fit),
-    Rule("agents.altitude.layer_m", ("agents.altitude.base_m", "agents.count"), _layers_are_low),
+    Rule("agents.altitude.layer_m", ("agents.altitude.base_m", "agents.count", "safety.ceiling_m"), _layers_are_low),
+    Rule("safety.fence.radius_m", ("agents.deployment.radius_m",), _circle_fences_the_start),
+    Rule("safety.fence.corners_m", _START, _corners_fence_the_start),
     Rule("policy.explore", (*_SENSING, *_ARENA), _search_has_few_cells),
     Rule("radio.range_m", _SENSING, _mates_hear_beyond_sight),
     Rule("radio.loss", ("radio.mode",), _ideal_radio_loses_nothing),

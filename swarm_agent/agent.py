@@ -23,6 +23,7 @@ from swarm_agent.bcmommt.speech import answers_said, calls_said, hear, tags_said
 from swarm_agent.bcmommt.step import Mind, new_mind
 from swarm_agent.news import news
 from swarm_agent.policies.choice import decide
+from swarm_agent.safety import Guard, SafetyConfig
 
 
 class Order(NamedTuple):
@@ -53,6 +54,7 @@ class AgentConfig:
     heading: tuple[float, float]
     ttl_s: float
     pilot: PilotConfig
+    safety: SafetyConfig
 
 
 class Output(NamedTuple):
@@ -72,6 +74,7 @@ class Agent:
         self._table, self._mind = self._innocence()
         self._seq = 0
         self._told: AgentStatus | None = None
+        self._guard = Guard(config.safety)
         self.pilot = Pilot(config.pilot)
 
     @property
@@ -91,15 +94,17 @@ class Agent:
         pilot = self.pilot
         pilot.listen(now_s, telemetry)
         state = pilot.state
+        self._guard.hear(now_s, inbox)
+        come_home = order.come_home or self._guard.spent(state.battery)
         frame: Frame | None = None
         intent: Intent
-        on_duty = state.ready and order.mission_tick is not None and not order.come_home
+        on_duty = state.ready and order.mission_tick is not None and not come_home
         if on_duty and order.mission_tick is not None and state.position_m and state.velocity_m_s:
             self._perceive(now_s, state.position_m, sightings, inbox)
             intent = self._decide(now_s, order.mission_tick, state.position_m)
             frame = self._say(now_s, state.position_m, state.velocity_m_s)
         else:
-            intent = Return() if order.come_home else Prepare()
+            intent = Return() if come_home else Prepare()
             if self._on_duty:  # on the ground or in other hands it must not hold on to targets
                 self._table, self._mind = self._innocence()
         self._on_duty = frame is not None
@@ -114,7 +119,7 @@ class Agent:
 
     def _tell(self, status: AgentStatus) -> AgentStatus:
         """The status with everything to be said in words: by the autopilot, the pilot and the algorithm."""
-        events = self.pilot.take_events() + news(self._told, status)
+        events = self.pilot.take_events() + self._guard.take_events() + news(self._told, status)
         self._told = status
         return structs.replace(status, events=events) if events else status
 
@@ -132,7 +137,7 @@ class Agent:
         self._mind, east, north = decide(
             self._table, config.params, self._mind, config.uid, me[0], me[1], now_s, config.seed, mission_tick
         )
-        return Fly((east, north))
+        return Fly(self._guard.safe(now_s, me, (east, north)))
 
     def _say(
         self, now_s: float, position_m: tuple[float, float, float], velocity_m_s: tuple[float, float, float]

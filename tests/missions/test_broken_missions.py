@@ -9,9 +9,10 @@ import pytest
 from missions.cli import BAD_INPUT, main
 
 BUNDLED = "baboons, crowded, narrow, quickstart, reference, tracks, wildlife"
-TOP = "name, description, seed, duration_s, tick_s, arena, home, agents, targets, radio, policy, vehicle"
+TOP = "name, description, seed, duration_s, tick_s, arena, home, agents, targets, radio, policy, vehicle, safety"
 MISSION = "a YAML file with a mission: a mapping with at least a name"
 NAME = "a word of letters, digits, '_', '.' and '-', at most 64 long, that starts with a letter or digit"
+CORNERS = "a list of 3 to 64 corners [east, north], each number from -50000 to 50000"
 TRACKS = "the path of a CSV of tracks (--set targets.file=PATH)"
 
 # What the file holds, and the lines expected, without the "m.yaml" that each begins with.
@@ -117,6 +118,35 @@ CASES: dict[str, tuple[str, list[str]]] = {
             ':5: agents.sensing.field_of_view: got "periscope"; allowed: omni, sector or camera',
         ],
     ),
+    "a fence of two corners": ("name: m\nsafety: {fence: {shape: polygon, corners_m: [[0, 1], [1, 0]]}}\n", [
+        f":2: safety.fence.corners_m: got a list; allowed: {CORNERS}",
+    ]),
+    "a corner with a height": (
+        "name: m\nsafety:\n  fence: {shape: polygon, corners_m: [[0, 1, 2], [1, 0], [5, 5], [5, 0]]}\n",
+        [f":3: safety.fence.corners_m.0: got a list; allowed: {CORNERS}"],
+    ),
+    "a fence without corners": ("name: m\nsafety: {fence: {shape: polygon}}\n", [
+        f":2: safety.fence.corners_m: got nothing; allowed: {CORNERS}",
+    ]),
+    "a fence of a kind there is not": ("name: m\nsafety:\n  fence: {shape: square}\n", [
+        ':3: safety.fence.shape: got "square"; allowed: arena, circle or polygon',
+    ]),
+    "a battery with nothing to spare": ("name: m\nsafety: {battery_reserve: 1}\n", [
+        ":2: safety.battery_reserve: got 1; allowed: a number from 0 to below 1",
+    ]),
+    "a start outside the fence": (
+        "name: m\nsafety: {fence: {shape: polygon, corners_m: [[100, 100], [101, 100], [100, 101]]}}\n",
+        [
+            ":2: safety.fence.corners_m: got a list; "
+            "allowed: corners around every starting place (agent 0 starts outside)",
+        ],
+    ),
+    "a fence inside the start": ("name: m\nsafety: {fence: {shape: circle, radius_m: 10}}\n", [
+        ":2: safety.fence.radius_m: got 10; allowed: more than agents.deployment.radius_m (15)",
+    ]),
+    "a ceiling below the layers": ("name: m\nsafety: {ceiling_m: 20}\n", [
+        ":2: agents.altitude.layer_m: got 2 (the default); allowed: less: the highest layer is at 28, above 20",
+    ]),
     "no such shape": ("name: m\narena:\n  shape: polygon\n  radius_m: 3\n", [
         ':3: arena.shape: got "polygon"; allowed: disc or rectangle',
     ]),
