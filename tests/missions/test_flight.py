@@ -151,7 +151,7 @@ def test_every_choice_flies(changes: tuple[str, ...]) -> None:
         ("agents.speed_m_s=50", "vehicle.limits.speed_m_s=100"),
         ("vehicle.limits={speed_m_s: 1, acceleration_m_s2: 0.1, climb_m_s: 0.1, descent_m_s: 0.1}",),
         ("vehicle.boot_s=0",),
-        ("vehicle.battery={capacity_mah: 999999, voltage_v: 0.001, hover_current_a: 999999}",),
+        ("vehicle.battery={capacity_mah: 999999, voltage_v: 0.001, hover_current_a: 0.001}",),
         ("arena.radius_m=50000", "agents.deployment.radius_m=5000", "targets.deployment.radius_m=50000"),
         ("tick_s=1", "policy.tag_lease_s=2", "policy.help_lease_s=2"),
         ("tick_s=0.01", "duration_s=1"),
