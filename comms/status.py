@@ -13,6 +13,7 @@ class Activity(StrEnum):
     """What an agent is doing, as a person watching would say it. One color each, everywhere."""
 
     PREPARING = "preparing"  # connect, preflight, takeoff, waiting for the others
+    TAKEN_OVER = "taken over"  # a person flies the vehicle: the agent's hands are off
     EXPLORE = "explore"
     FOLLOW = "follow"
     CALLING = "calling for help"  # following, with an urgent help call out
@@ -20,6 +21,10 @@ class Activity(StrEnum):
     RETURNING = "returning"  # return, land, disarm
     LANDED = "landed"
     LOST = "lost"
+
+
+# Then an agent follows nobody, and leaves targets to nobody.
+OFF_DUTY = frozenset({Activity.PREPARING, Activity.TAKEN_OVER, Activity.RETURNING, Activity.LANDED, Activity.LOST})
 
 
 class Level(StrEnum):
@@ -52,7 +57,7 @@ class AgentStatus(msgspec.Struct, frozen=True, kw_only=True):
     """One agent at one tick, as it sees itself. Positions in the mission's ENU frame, meters.
 
     Attributes:
-        uid: the agent's number, from 0; its MAVLink system id is uid + 1.
+        uid: the agent's number, from 0; that of its vehicle on MAVLink is another.
         position_m, velocity_m_s: own estimate, ENU; None until the autopilot has a position.
         heading_rad: where the nose points, clockwise from north.
         battery: remaining share, 0 to 1; None when unknown.

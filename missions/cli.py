@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 
 from missions.load import LIBRARY, bundled_names, load_mission
 from missions.mission import Mission
-from missions.options import LaunchOptions
+from missions.options import LaunchOptions, speed_of
 from missions.overrides import Override
 from missions.problems import InputError
 
@@ -50,7 +50,8 @@ def launch(options: argparse.Namespace) -> int:
     mission = _mission(options)
     from missions.launch import launch as fly
 
-    settings = LaunchOptions(speed=options.speed, record=options.record, report=options.report, view=options.view)
+    speed = speed_of(mission, options.speed)
+    settings = LaunchOptions(speed=speed, record=options.record, report=options.report, view=options.view)
     return fly(mission, options=settings)
 
 
@@ -219,7 +220,10 @@ def _parser() -> argparse.ArgumentParser:
     flying = _verb(verbs, "launch", launch, "fly a mission", _LAUNCH)
     _one_mission(flying)
     flying.add_argument(
-        "--speed", type=_speed, default=inf, metavar="X", help="X times real time, or max (default): as fast as it goes"
+        "--speed",
+        type=_speed,
+        metavar="X",
+        help="X times real time, or max: as fast as it goes (default; with vehicle.links: 1)",
     )
     flying.add_argument("--record", type=_new_file, metavar="F.rrd", help="write a recording for rerun")
     flying.add_argument("--report", type=_report, metavar="F.json", help="write the report; - is standard output")

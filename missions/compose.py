@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from math import atan2, cos, radians
 
 from comms.air import Air, LinkModel
@@ -9,12 +10,14 @@ from comms.chance import PLACE_AGENT
 from comms.frames import GeoPoint, enu_from_geo, geo_from_enu
 from comms.keys import Keys
 from comms.session import Bus
-from missions.mission import CircleFence, Disc, Mission, PolygonFence, TrackTargets, system_id
+from comms.transport import Transport
+from missions.mission import CircleFence, Disc, Mission, PolygonFence, TrackTargets
 from missions.rules import start_places
 from missions.targets import herd
 from missions.training.weights import BUNDLED, read_weights
+from missions.vehicles import LinkedVehicle, Vehicle
 from swarm_agent.agent import Agent, AgentConfig
-from swarm_agent.autopilot import PilotConfig
+from swarm_agent.autopilot import Pilot, PilotConfig
 from swarm_agent.bcmommt.net import BLANK, Net
 from swarm_agent.bcmommt.params import Call, Capture, Explore, Gate, Params, Policy, Predictor, with_range
 from swarm_agent.fence import Fence, circle, polygon
@@ -138,7 +141,7 @@ def agents(mission: Mission, n_targets: int) -> list[Agent]:
                 ttl_s=ttl_s,
                 pilot=PilotConfig(
                     uid=uid,
-                    system_id=system_id(uid),
+                    system_id=mission.system_id(uid),
                     home=mission.home.place,
                     altitude_m=mission.agents.altitude.of_agent(uid),
                     max_speed_m_s=mission.agents.speed_m_s,
@@ -177,22 +180,28 @@ def fence(mission: Mission) -> Fence:
     return polygon([(east, north), (-east, north), (-east, -north), (east, -north)])
 
 
-def vehicles(mission: Mission) -> list[SimulatedVehicle]:
-    """Every agent's simulated vehicle, by uid, standing at its own home and just switched on."""
-    vehicle = mission.vehicle
+def vehicles(mission: Mission, pilots: Sequence[Pilot], transports: Mapping[int, Transport]) -> list[Vehicle]:
+    """Every agent's vehicle, by uid: behind its open transport, or simulated.
+
+    A simulated one stands at its own home and was just switched on.
+    """
+    vehicle, places = mission.vehicle, deployment(mission)
     config = VehicleConfig(
-        kind=vehicle.kind,
+        kind="ideal" if vehicle.kind == "ideal" else "simulated",
         boot_s=vehicle.boot_s,
         limits=FlightLimits(**vehicle.limits.model_dump()),
         wind=Wind(**vehicle.wind.model_dump()),
         battery=Battery(**vehicle.battery.model_dump()),
     )
-    parts = []
+    parts: list[Vehicle] = []
     for uid, (pad, (east, north)) in enumerate(zip(pads(mission), headings(mission), strict=True)):
+        if uid in transports:
+            parts.append(LinkedVehicle(transports[uid], pilot=pilots[uid], pad_m=(*places[uid], 0.0)))
+            continue
         parts.append(
             SimulatedVehicle(
                 config=config,
-                system_id=system_id(uid),
+                system_id=uid + 1,
                 home=pad,
                 heading_rad=atan2(east, north),
                 seed=mission.seed,

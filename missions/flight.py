@@ -1,4 +1,4 @@
-"""A whole mission in one process: agents, their simulated vehicles, the air between them and the world below.
+"""A whole mission in one process: agents, their vehicles or links to them, the air between them, the world below.
 
 with open_local_bus() as bus:
     flight = Flight(mission, bus)
@@ -7,8 +7,9 @@ with open_local_bus() as bus:
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from math import floor
+from types import MappingProxyType
 
 from comms.clock import Pace
 from comms.frames import Vec3, swap_enu_ned
@@ -17,11 +18,13 @@ from comms.messages import Sighting
 from comms.radio import Radio
 from comms.session import Bus
 from comms.status import Activity, AgentStatus, Event, Level
+from comms.transport import Transport
 from missions import compose
 from missions.coverage import Coverage
 from missions.mission import Mission
 from missions.observation import AgentTruth, Observation, Observer, Phase, TargetTruth
 from swarm_agent.agent import Agent, Order, Output
+from swarm_agent.autopilot import Phase as PilotPhase
 from vehicle_sim.vehicle import VehicleTruth
 
 # A preparation or a return that takes longer than this has gone wrong, whatever the pilots say.
@@ -36,15 +39,18 @@ _ENDED = (Activity.LANDED, Activity.LOST)
 class Flight:
     """One mission from power-on to landed. Everything in it follows from the mission; only the pace comes from outside.
 
+    Args:
+        transports: open, by uid: of the agents whose vehicles are not simulated.
+
     Attributes:
         coverage: what was seen. ticks_flown: ticks of MISSION so far. complete: MISSION lasted its whole duration.
     """
 
-    def __init__(self, mission: Mission, bus: Bus) -> None:
+    def __init__(self, mission: Mission, bus: Bus, transports: Mapping[int, Transport] = MappingProxyType({})) -> None:
         self.mission = mission
         self.world = compose.world(mission)
         self.agents = compose.agents(mission, len(self.world.places))
-        self.vehicles = compose.vehicles(mission)
+        self.vehicles = compose.vehicles(mission, [agent.pilot for agent in self.agents], transports)
         self.air = compose.air(mission, bus)
         keys = Keys(mission.name)
         self.radios = [Radio(bus, keys=keys, uid=uid) for uid in range(mission.agents.count)]
@@ -210,5 +216,9 @@ class Flight:
         return (tick - self._ready_since) * self.mission.tick_s >= SETTLE_S
 
     def _has_ended(self, status: AgentStatus) -> bool:
-        """Landed, or lost and lying on the ground: one that is lost in the air may yet come down."""
-        return status.activity in _ENDED and self.vehicles[status.uid].truth.on_ground
+        """Landed, or lost and lying on the ground; one that is lost in the air may yet come down while it is heard."""
+        if status.activity not in _ENDED:
+            return False
+        state = self.agents[status.uid].pilot.state
+        unheard = state.link_lost and state.phase is PilotPhase.FAILED
+        return unheard or self.vehicles[status.uid].truth.on_ground

@@ -15,8 +15,10 @@ from rich.console import Console
 
 from comms.clock import Lockstep, Pace, RealTime
 from comms.session import open_local_bus
+from comms.transport import Transport, TransportError, transport_of
 from missions.flight import Flight
 from missions.load import dump_mission
+from missions.log import EventLog
 from missions.metrics import Metrics
 from missions.mission import Mission
 from missions.observation import Observer
@@ -64,8 +66,8 @@ def launch(mission: Mission, *, options: LaunchOptions) -> int:
     console = Console(stderr=options.report == "-")
     _check_files(options)
     metrics, request = Metrics(), StopRequest(console)
-    with open_local_bus() as bus, request.listening():
-        flight = Flight(mission, bus)
+    with open_local_bus() as bus, _transports(mission) as transports, request.listening():
+        flight = Flight(mission, bus, transports)
         began_s = time.monotonic()
         kept = _fly(flight, metrics, request, console, options)
         report = make_report(flight, metrics, wall_s=time.monotonic() - began_s, recording=options.record)
@@ -85,6 +87,8 @@ def _fly(flight: Flight, metrics: Metrics, request: StopRequest, console: Consol
     kept = True
     with ExitStack() as stack:
         observers: list[Observer] = [metrics]
+        if mission.in_real_time:
+            observers.append(EventLog(console))
         recorder = recorder_of(flight, options) if options.record is not None or options.view else None
         if recorder is not None:
             try:
@@ -128,6 +132,18 @@ def _check_files(options: LaunchOptions) -> None:
             raise InputError(
                 f"--report: got {report}; allowed: a file that can be written ({error.strerror})"
             ) from error
+
+
+@contextmanager
+def _transports(mission: Mission) -> Iterator[dict[int, Transport]]:
+    """The links to vehicles elsewhere, open, by uid."""
+    links = {uid: link for uid, link in enumerate(mission.vehicle.links) if link is not None}
+    with ExitStack() as stack:
+        try:
+            transports = {uid: stack.enter_context(transport_of(link)) for uid, link in links.items()}
+        except TransportError as error:
+            raise InputError(f"vehicle.links: {error}") from error
+        yield transports
 
 
 def _pace(mission: Mission, options: LaunchOptions) -> Pace:

@@ -15,11 +15,12 @@ from math import radians, tan
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
+from pydantic import AfterValidator, BaseModel, ConfigDict, Discriminator, Field, Tag
 
 from comms.arena import Arena as Area
 from comms.arena import disc, rectangle
 from comms.frames import GeoPoint
+from comms.transport import FORMS, transport_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +43,17 @@ Bearing = Annotated[float, Field(ge=0, lt=360)]
 CORNERS = "a list of 3 to 64 corners [east, north], each number from -50000 to 50000"
 NAME = "a word of letters, digits, '_', '.' and '-', at most 64 long, that starts with a letter or digit"
 Name = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_.\-]{0,63}$"), Allowed(NAME)]
+
+
+def _link_url(text: str) -> str:
+    transport_of(text)
+    return text
+
+
+LINKS = f"a list with a link for each agent: {FORMS}, or null"
+LinkUrl = Annotated[str, AfterValidator(_link_url)]
+SYSTEM_IDS = "a list with a whole number from 1 to 250, or null, for each agent"
+SystemId = Annotated[int, Field(ge=1, le=250)]
 
 
 class Part(BaseModel):
@@ -310,8 +322,12 @@ class Battery(Part):
 class Vehicle(Part):
     """What carries an agent: an autopilot and its airframe."""
 
-    kind: Literal["simulated", "ideal"] = "simulated"
-    """`simulated`: flies as an airframe does; `ideal`: the same MAVLink, but follows setpoints exactly."""
+    kind: Literal["simulated", "ideal", "link"] = "simulated"
+    """`simulated`: flies as an airframe does; `ideal`: follows setpoints exactly; `link`: it flies elsewhere."""
+    links: Annotated[tuple[LinkUrl | None, ...], Field(strict=False), Allowed(LINKS)] = ()
+    """Where the vehicles are reached, by agent; null: that agent's is simulated. Only for kind `link`."""
+    system_ids: Annotated[tuple[SystemId | None, ...], Field(strict=False), Allowed(SYSTEM_IDS)] = ()
+    """The vehicles' MAVLink system ids, by agent; none or null: that of the first vehicle heard on the link."""
     boot_s: Annotated[float, Field(ge=0, le=120)] = 2.0
     """Time from power-on until the autopilot is ready to arm."""
     limits: Limits = Limits()
@@ -404,13 +420,23 @@ class Mission(Part):
     safety: Safety = Safety()
     """What every agent keeps to."""
 
+    def link(self, uid: int) -> str | None:
+        """Where agent `uid`'s vehicle is reached; None where it is simulated."""
+        return self.vehicle.links[uid] if self.vehicle.links else None
+
+    def system_id(self, uid: int) -> int | None:
+        """The MAVLink system id of agent `uid`'s vehicle; None where the vehicle tells."""
+        if self.link(uid) is None:
+            return uid + 1
+        return self.vehicle.system_ids[uid] if self.vehicle.system_ids else None
+
+    @property
+    def in_real_time(self) -> bool:
+        """Whether a vehicle flies elsewhere, where time does not wait."""
+        return any(self.vehicle.links)
+
     @property
     def target_sensing_range_m(self) -> float:
         """How far a target notices an agent: its own range, or else the agents'."""
         own = self.targets.sensing_range_m if isinstance(self.targets, MovingTargets) else None
         return max(self.agents.sensing_ranges_m) if own is None else own
-
-
-def system_id(uid: int) -> int:
-    """The MAVLink system id of agent `uid`'s vehicle."""
-    return uid + 1

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import inf
+from math import inf, isinf
 from pathlib import Path
+
+from missions.mission import Mission
+from missions.problems import InputError
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -22,3 +25,17 @@ class LaunchOptions:
     record: Path | None = None
     report: str | None = None
     view: bool = False
+
+
+def speed_of(mission: Mission, asked: float | None) -> float:
+    """How fast to fly: as asked, or else as fast as it goes. A vehicle elsewhere, simulated or not, has its own clock.
+
+    Raises:
+        InputError: another speed than 1 was asked for such a vehicle.
+    """
+    if not mission.in_real_time:
+        return inf if asked is None else asked
+    if asked not in (None, 1.0):
+        got = "max" if isinf(asked) else f"{asked:g}"
+        raise InputError(f"--speed: got {got}; allowed: 1: the vehicles behind vehicle.links fly in real time")
+    return 1.0

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from comms.arena import area_m2
 from comms.frames import GeoPoint, Vec3, geo_from_enu
-from missions.mission import Mission, MovingTargets, system_id
+from missions.mission import Mission, MovingTargets
 from missions.observation import Phase
 from missions.problems import shown
 from missions.rules import start_places
@@ -22,11 +22,13 @@ if TYPE_CHECKING:
 class AgentPlan:
     """One agent: its number, its MAVLink system id, where it starts, and how high it flies.
 
-    `start_m` is its layer above its starting place (ENU); `home` is that place on the ground.
+    `start_m` is its layer above its starting place (ENU); `home` is that place on the ground. A vehicle behind a `link`
+    tells its system id if that is None, and starts where it stands.
     """
 
     uid: int
-    system_id: int
+    system_id: int | None
+    link: str | None
     start_m: Vec3
     home: GeoPoint
 
@@ -67,7 +69,13 @@ def _agents(mission: Mission) -> tuple[AgentPlan, ...]:
     assert places is not None, "a mission whose agents do not fit is no loaded mission"
     altitude, home = mission.agents.altitude, mission.home.place
     return tuple(
-        AgentPlan(uid, system_id(uid), (x, y, altitude.of_agent(uid)), geo_from_enu(home, (x, y, 0.0)))
+        AgentPlan(
+            uid,
+            mission.system_id(uid),
+            mission.link(uid),
+            (x, y, altitude.of_agent(uid)),
+            geo_from_enu(home, (x, y, 0.0)),
+        )
         for uid, (x, y) in enumerate(places)
     )
 
@@ -121,10 +129,16 @@ def _agent_table(plan: Plan) -> Table:
     columns = ("uid", "system id", "altitude m", "start east m", "start north m", "home latitude", "home longitude")
     table = _table("Agents", *columns, numbers=columns)
     for agent in plan.agents:
-        east, north, up = agent.start_m
-        places = (f"{agent.home.latitude_deg:.7f}", f"{agent.home.longitude_deg:.7f}")
-        table.add_row(str(agent.uid), str(agent.system_id), shown(up), f"{east:.2f}", f"{north:.2f}", *places)
+        table.add_row(str(agent.uid), str(agent.system_id or "it tells"), shown(agent.start_m[2]), *_start(agent))
     return table
+
+
+def _start(agent: AgentPlan) -> tuple[str, str, str, str]:
+    """Where it starts, as the table's last columns; what is known of a vehicle elsewhere is how it is reached."""
+    if agent.link is not None:
+        return ("where", "it stands", agent.link, "")
+    east, north, _ = agent.start_m
+    return (f"{east:.2f}", f"{north:.2f}", f"{agent.home.latitude_deg:.7f}", f"{agent.home.longitude_deg:.7f}")
 
 
 def _phase_table(plan: Plan) -> Table:

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 from missions.flight import Flight
 from missions.metrics import Metrics
 from missions.plan import coverage_floor
+from vehicle_sim.autopilot import SimulatedVehicle
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -34,7 +35,8 @@ def make_report(flight: Flight, metrics: Metrics, *, wall_s: float, recording: P
     coverage = flight.coverage.mean
     count = flight.air.count
     endpoints = [agent.pilot.endpoint for agent in flight.agents]
-    vehicles = [channel.endpoint for vehicle in flight.vehicles for channel in vehicle.channels]
+    simulated = [vehicle for vehicle in flight.vehicles if isinstance(vehicle, SimulatedVehicle)]
+    vehicles = [channel.endpoint for vehicle in simulated for channel in vehicle.channels]
     return {
         "mission": mission.name,
         "policy": mission.policy.name,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -130,6 +131,23 @@ def _vehicles_keep_up(mission: Mission) -> str | None:
     return f"at least agents.speed_m_s ({shown(mission.agents.speed_m_s)})"
 
 
+def _links_are_for_agents(mission: Mission) -> str | None:
+    links, count = mission.vehicle.links, mission.agents.count
+    if mission.vehicle.kind != "link":
+        return "none where vehicle.kind is not link" if links else None
+    if len(links) != count:
+        return f"as many as agents.count ({count}); these are {len(links)}"
+    twice = [link for link, times in Counter(filter(None, links)).items() if times > 1]
+    return f"each link once; {twice[0]} is there twice" if twice else None
+
+
+def _system_ids_are_for_links(mission: Mission) -> str | None:
+    given = len(mission.vehicle.system_ids)
+    if given in (0, len(mission.vehicle.links)):
+        return None
+    return f"none, or as many as vehicle.links ({len(mission.vehicle.links)}); these are {given}"
+
+
 def _vehicles_beat_the_wind(mission: Mission) -> str | None:
     wind, most_m_s = mission.vehicle.wind, mission.vehicle.limits.speed_m_s
     if wind.speed_m_s + wind.gust_m_s < most_m_s:
@@ -207,6 +225,8 @@ RULES = (
     Rule("policy.tag_lease_s", ("tick_s", "radio.latency_s"), _tag_lease_is_renewable),
     Rule("policy.help_lease_s", ("tick_s", "radio.latency_s"), _help_lease_is_renewable),
     Rule("vehicle.limits.speed_m_s", ("agents.speed_m_s",), _vehicles_keep_up),
+    Rule("vehicle.links", ("vehicle.kind", "agents.count"), _links_are_for_agents),
+    Rule("vehicle.system_ids", ("vehicle.links",), _system_ids_are_for_links),
     Rule("vehicle.wind.speed_m_s", ("vehicle.wind.gust_m_s", "vehicle.limits.speed_m_s"), _vehicles_beat_the_wind),
     Rule("targets.file", (), _tracks_exist),
     Rule("policy.weights", (), _weights_are_readable),

@@ -191,6 +191,8 @@ class Agent:
             return Activity.LOST
         if state.phase in (Phase.RETURN, Phase.LAND):
             return Activity.RETURNING
+        if state.phase is Phase.TAKEN_OVER:
+            return Activity.TAKEN_OVER
         if not self._on_duty:
             return Activity.PREPARING
         if self._mind.mode is Mode.FOLLOW:

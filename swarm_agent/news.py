@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from comms.status import Activity, AgentStatus, Event, Level
-
-OFF_DUTY = (Activity.PREPARING, Activity.RETURNING, Activity.LANDED, Activity.LOST)  # then it leaves targets to nobody
+from comms.status import OFF_DUTY, AgentStatus, Event, Level
 
 
 def news(before: AgentStatus | None, now: AgentStatus) -> tuple[Event, ...]:

@@ -6,6 +6,7 @@ from comms.status import Activity, Level
 
 ACTIVITY_COLORS: dict[Activity, int] = {
     Activity.PREPARING: 0x9FB3C8FF,
+    Activity.TAKEN_OVER: 0xFF8FD0FF,
     Activity.EXPLORE: 0x4FA3FFFF,
     Activity.FOLLOW: 0x3DDC97FF,
     Activity.CALLING: 0xFFB020FF,

@@ -17,6 +17,7 @@ from missions.recording.tape import Tape
 # Words short enough for a lane of a few seconds.
 _LANE_WORDS: dict[Activity, str] = {
     Activity.PREPARING: "prepare",
+    Activity.TAKEN_OVER: "taken",
     Activity.EXPLORE: "explore",
     Activity.FOLLOW: "follow",
     Activity.CALLING: "calls",

@@ -53,7 +53,7 @@ class OnLayer:
         flying = self.ready and isinstance(intent, Fly)
         self.phase = Phase.FLYING if flying else Phase.ON_STATION
         velocity_m_s = self._velocity(cockpit, now_s, intent)
-        cockpit.send(velocity_setpoint(velocity_m_s, system_id=cockpit.config.system_id, now_s=now_s))
+        cockpit.send(velocity_setpoint(velocity_m_s, system_id=cockpit.target, now_s=now_s))
         self._watch_gap(cockpit, now_s)
         return self
 

@@ -18,12 +18,14 @@ class Cockpit:
     Attributes:
         replies: this tick's messages that may answer a request. warnings: this tick's serious texts of the vehicle.
         flavor: assumed until the first heartbeat tells.
+        system_id: the vehicle's; None until it is known.
         rates_asked: the vehicle has been asked for all the messages we need.
         last_warning: the newest of the vehicle's serious texts, to explain why it is not ready.
     """
 
     def __init__(self, config: PilotConfig, endpoint: Endpoint) -> None:
         self.config = config
+        self.system_id = config.system_id
         self.endpoint = endpoint
         self.telemetry = Telemetry(config.home)
         self.flavor = ARDUPILOT
@@ -42,6 +44,12 @@ class Cockpit:
     def send(self, message: Message) -> None:
         """Queue a message for the vehicle."""
         self.endpoint.send(message)
+
+    @property
+    def target(self) -> int:
+        """The system id for messages to the vehicle; nothing is sent to one before it is known."""
+        assert self.system_id is not None, "a message to a vehicle that has not been heard"
+        return self.system_id
 
     def say(self, level: Level, text: str) -> None:
         """Add a line to the event log."""

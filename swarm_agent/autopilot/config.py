@@ -16,7 +16,8 @@ class PilotConfig:
     """The pilot of one vehicle.
 
     Attributes:
-        uid: the agent's number, named in errors. system_id: the vehicle's MAVLink system id (by custom uid + 1).
+        uid: the agent's number, named in errors.
+        system_id: the vehicle's MAVLink system id; None: that of the first autopilot heard on the link.
         home: origin of the mission's ENU frame; its altitude counts, layers are meters above it.
         altitude_m: the layer this vehicle flies at, up of `home`; also the altitude it returns at.
         max_speed_m_s: no horizontal setpoint is faster.
@@ -33,7 +34,7 @@ class PilotConfig:
     """
 
     uid: int
-    system_id: int
+    system_id: int | None
     home: GeoPoint
     altitude_m: float
     max_speed_m_s: float
@@ -51,6 +52,8 @@ class PilotConfig:
     def __post_init__(self) -> None:
         for field, low, high in RANGES:
             value = getattr(self, field)
+            if value is None and field == "system_id":
+                continue
             if not (isfinite(value) and low <= value <= high):
                 raise ValueError(f"pilot of agent {self.uid}: {field} is {value}, allowed is {low:g} to {high:g}")
         home = self.home

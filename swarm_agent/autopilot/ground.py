@@ -36,13 +36,14 @@ class Connect(OnTheWay):
         if telemetry.autopilot is None:
             waited_s = now_s - self._since_s
             if waited_s > config.connect_limit_s or isinstance(intent, Return | Land):
-                return Failed(f"no heartbeat from system {config.system_id} in {waited_s:.0f} s")
+                who = "any autopilot" if config.system_id is None else f"system {config.system_id}"
+                return Failed(f"no heartbeat from {who} in {waited_s:.0f} s")
             return self
         flavor = FLAVORS.get(telemetry.autopilot)
         if flavor is None:
             return Failed(f"MAV_AUTOPILOT {telemetry.autopilot} is not supported, only {known_flavors()}")
         cockpit.flavor = flavor
-        cockpit.say(Level.INFO, f"heartbeat of an {flavor.name} vehicle")
+        cockpit.say(Level.INFO, f"heartbeat of an {flavor.name} vehicle, system {cockpit.system_id}")
         return Preflight(since_s=now_s)
 
 

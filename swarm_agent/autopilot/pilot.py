@@ -18,6 +18,7 @@ from swarm_agent.autopilot.streams import Streams
 HEARTBEAT_S = 1.0
 CLOCK_SLACK_S = 1e-6  # ticks of 0.1 s do not add up to 1 s exactly
 EVERYBODY = 0
+NO_AUTOPILOT: int = dialect.MAV_AUTOPILOT_INVALID
 
 REPLIES = frozenset({
     dialect.MAVLink_command_ack_message,
@@ -98,13 +99,17 @@ class Pilot:
 
     def _hear(self, wire_in: bytes, now_s: float) -> None:
         """Sort the vehicle's messages; those of other systems and of its other components are not for us."""
-        cockpit, system_id = self._cockpit, self.config.system_id
+        cockpit = self._cockpit
         dropped = self.endpoint.dropped
         messages = self.endpoint.receive(wire_in)
         if self.endpoint.dropped > dropped:
             cockpit.say(Level.WARNING, f"{len(wire_in)} bytes in one tick: not all of it is heard")
         for message in messages:
-            if message.get_srcSystem() != system_id or message.get_srcComponent() != AUTOPILOT_COMPONENT_ID:
+            if message.get_srcComponent() != AUTOPILOT_COMPONENT_ID:
+                continue
+            if cockpit.system_id is None:
+                self._meet(message)
+            if message.get_srcSystem() != cockpit.system_id:
                 continue
             kind = type(message)
             if kind in REPLIES:
@@ -114,6 +119,11 @@ class Pilot:
                 cockpit.hear_text(message)
             else:
                 cockpit.telemetry.hear(message, now_s)
+
+    def _meet(self, message: Message) -> None:
+        """The first autopilot heard is the vehicle. Ground stations, which have the same component id, are none."""
+        if isinstance(message, dialect.MAVLink_heartbeat_message) and message.autopilot != NO_AUTOPILOT:
+            self._cockpit.system_id = message.get_srcSystem()
 
     def _for_us(self, message: Message) -> bool:
         """Parameters are for all; an acknowledgment may be a ground station's on the same vehicle."""

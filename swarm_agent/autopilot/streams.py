@@ -89,6 +89,6 @@ class Streams:
         self._groups[rate.group] = rate.rate_hz
         cockpit.send(
             dialect.MAVLink_request_data_stream_message(
-                cockpit.config.system_id, AUTOPILOT_COMPONENT_ID, rate.group, rate.rate_hz, 1
+                cockpit.target, AUTOPILOT_COMPONENT_ID, rate.group, rate.rate_hz, 1
             )
         )

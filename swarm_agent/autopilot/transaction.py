@@ -50,7 +50,7 @@ class Transaction:
             return Outcome.OPEN
         if self._sendings == SENDINGS:
             return Outcome.SILENCE
-        cockpit.send(self._request.message(system_id=cockpit.config.system_id, repeat=self._sendings))
+        cockpit.send(self._request.message(system_id=cockpit.target, repeat=self._sendings))
         self._sendings += 1
         self._due_s = now_s + RESEND_S
         return Outcome.OPEN

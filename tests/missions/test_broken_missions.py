@@ -13,6 +13,10 @@ TOP = "name, description, seed, duration_s, tick_s, arena, home, agents, targets
 MISSION = "a YAML file with a mission: a mapping with at least a name"
 NAME = "a word of letters, digits, '_', '.' and '-', at most 64 long, that starts with a letter or digit"
 CORNERS = "a list of 3 to 64 corners [east, north], each number from -50000 to 50000"
+LINKS = (
+    "a list with a link for each agent: tcp:HOST:PORT, tcpin:HOST:PORT, udpin:HOST:PORT, udpout:HOST:PORT, "
+    "serial:DEVICE:BAUD, pty or pty:PATH, or null"
+)
 TRACKS = "the path of a CSV of tracks (--set targets.file=PATH)"
 
 # What the file holds, and the lines expected, without the "m.yaml" that each begins with.
@@ -109,15 +113,42 @@ CASES: dict[str, tuple[str, list[str]]] = {
         ':2: policy.predictor: got "perfect"; allowed: direct, learned or none',
     ]),
     "values that come later": (
-        "name: m\nvehicle: {kind: link}\nradio: {mode: field}\npolicy: {name: shepherd}\n"
+        "name: m\nvehicle: {kind: glider}\nradio: {mode: field}\npolicy: {name: shepherd}\n"
         "agents: {sensing: {field_of_view: periscope}}\n",
         [
-            ':2: vehicle.kind: got "link"; allowed: simulated or ideal',
+            ':2: vehicle.kind: got "glider"; allowed: simulated, ideal or link',
             ':3: radio.mode: got "field"; allowed: sim or ideal',
             ':4: policy.name: got "shepherd"; allowed: a-cmommt, b-cmommt-basic, b-cmommt or regions',
             ':5: agents.sensing.field_of_view: got "periscope"; allowed: omni, sector or camera',
         ],
     ),
+    "links": ("name: m\nagents: {count: 3}\nvehicle:\n  kind: link\n  links: [tcp, 'tcp:h:99999', 7]\n", [
+        f':5: vehicle.links.0: got "tcp"; allowed: {LINKS}',
+        f':5: vehicle.links.1: got "tcp:h:99999"; allowed: {LINKS}',
+        f":5: vehicle.links.2: got 7; allowed: {LINKS}",
+    ]),
+    "too few links": ("name: m\nvehicle:\n  kind: link\n  links: ['udpin:0.0.0.0:14550', null]\n", [
+        ":4: vehicle.links: got a list; allowed: as many as agents.count (10); these are 2",
+    ]),
+    "a kind without links": ("name: m\nvehicle: {kind: link}\n", [
+        ":2: vehicle.links: got a list (the default); allowed: as many as agents.count (10); these are 0",
+    ]),
+    "links without the kind": ("name: m\nagents: {count: 1}\nvehicle: {links: ['tcp:127.0.0.1:5760']}\n", [
+        ":3: vehicle.links: got a list; allowed: none where vehicle.kind is not link",
+    ]),
+    "one link for two": (
+        "name: m\nagents: {count: 2}\nvehicle: {kind: link, links: ['tcp:127.0.0.1:5760', 'tcp:127.0.0.1:5760']}\n",
+        [":3: vehicle.links: got a list; allowed: each link once; tcp:127.0.0.1:5760 is there twice"],
+    ),
+    "system ids": (
+        "name: m\nagents: {count: 2}\nvehicle:\n  kind: link\n  links: ['tcp:127.0.0.1:5760', null]\n"
+        "  system_ids: [251, 1]\n",
+        [":6: vehicle.system_ids.0: got 251; "
+         "allowed: a list with a whole number from 1 to 250, or null, for each agent"],
+    ),
+    "too many system ids": ("name: m\nvehicle: {system_ids: [1]}\n", [
+        ":2: vehicle.system_ids: got a list; allowed: none, or as many as vehicle.links (0); these are 1",
+    ]),
     "a fence of two corners": ("name: m\nsafety: {fence: {shape: polygon, corners_m: [[0, 1], [1, 0]]}}\n", [
         f":2: safety.fence.corners_m: got a list; allowed: {CORNERS}",
     ]),
