@@ -20,6 +20,9 @@ from missions.mission import Mission
 from missions.options import LaunchOptions, speed_of
 from missions.overrides import Override
 from missions.problems import InputError
+from missions.sim.options import EXAMPLES as SIM_EXAMPLES
+from missions.sim.options import add_options as add_sim_options
+from missions.sim.options import sim_options
 
 if TYPE_CHECKING:
     from missions.study.shards import Shard
@@ -102,6 +105,13 @@ def schema(options: argparse.Namespace) -> int:
     return DONE
 
 
+def sim(options: argparse.Namespace) -> int:
+    """Fly one vehicle in real time for whoever connects."""
+    from missions.sim.session import simulate
+
+    return simulate(sim_options(options))
+
+
 def study(options: argparse.Namespace) -> int:
     """Fly a study, all of the paper's, or merge what several computers have flown."""
     _need_extra("study", _STUDY_PACKAGES)
@@ -157,6 +167,7 @@ _TOP = """examples:
   swarm launch quickstart --set agents.count=5 --report -
   swarm check my.yaml                  every mistake, with line, key and what is allowed
   swarm plan wildlife                  what would run, as tables
+  swarm sim --port 5760                one vehicle for QGroundControl, MAVProxy or MAVSDK
   swarm study figure-16 --runs 20      many missions, compared
 
 `swarm VERB --help` tells more. Exit codes: 0 done, 1 the mission failed, 2 bad input, 130 stopped by Ctrl-C."""
@@ -235,6 +246,8 @@ def _parser() -> argparse.ArgumentParser:
 
     planning = _verb(verbs, "plan", plan, "show what a mission would run", _PLAN)
     _one_mission(planning)
+
+    add_sim_options(_verb(verbs, "sim", sim, "fly one vehicle in real time, as ArduCopter SITL does", SIM_EXAMPLES))
 
     _add_study(_verb(verbs, "study", study, "fly many missions and compare them", _STUDY))
 

@@ -1,0 +1,112 @@
+"""A port for ground stations: one vehicle or a whole swarm on it, each vehicle a MAVLink system of its own.
+
+    with open_ground_link("udpout:127.0.0.1:14550", vehicles, option="--gcs") as link:
+        flight.run(pace=pace, observers=[link], stop=stop)
+
+What a ground station sends goes to the vehicle it addresses, or to all. Each vehicle has a channel here, beside the one
+its agent holds: with rates of its own, and silent but for heartbeats and news until somebody asks for more. Frames of
+one side never pass to the other's.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+
+from comms.mavlink import Endpoint
+from comms.transport import Transport, TransportError, transport_of
+from missions.observation import Observation
+from missions.problems import InputError
+from vehicle_sim.autopilot import SimulatedVehicle
+from vehicle_sim.autopilot.channel import Channel
+
+_READER_ID = 255  # it never speaks: any id will do
+
+
+class GroundLink:
+    """Channels of several vehicles on one open transport. An observer: it speaks and listens between ticks.
+
+    `wall_clock` is what peers' silence and back-offs are counted on, however fast the mission goes.
+
+    Attributes:
+        url: where ground stations find it.
+    """
+
+    def __init__(
+        self,
+        transport: Transport,
+        vehicles: Sequence[SimulatedVehicle],
+        *,
+        wall_clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._transport = transport
+        self._wall_clock = wall_clock
+        self._reader = Endpoint(system_id=_READER_ID)
+        self._channels = {vehicle.autopilot.system_id: vehicle.open_channel() for vehicle in vehicles}
+        self.url = transport.url
+
+    @property
+    def received(self) -> int:
+        """Frames from ground stations so far."""
+        return self._reader.received
+
+    @property
+    def bad(self) -> int:
+        """Stretches of what came that were no frame."""
+        return self._reader.bad
+
+    @property
+    def sent(self) -> int:
+        """Frames to ground stations so far."""
+        return sum(channel.endpoint.sent for channel in self._channels.values())
+
+    @property
+    def dropped(self) -> int:
+        """Frames that were too many, on either way."""
+        return self._reader.dropped + sum(channel.endpoint.dropped for channel in self._channels.values())
+
+    @property
+    def lost_bytes(self) -> int:
+        """What the transport could not take or deliver: somebody sends too much, or reads too slowly."""
+        return self._transport.counts.dropped_in + self._transport.counts.dropped_out
+
+    def observe(self, observation: Observation) -> None:
+        """After a tick of the mission: say what the vehicles said in it, hear what they hear in the next."""
+        self.say()
+        self.hear()
+
+    def say(self) -> None:
+        """Send what the vehicles have said since the last call."""
+        wire = b"".join([channel.take() for channel in self._channels.values()])
+        if wire:
+            self._transport.write(wire)
+
+    def hear(self) -> None:
+        """Give what has come to the vehicles it is for; they take it in at their next tick."""
+        for chunk in self._transport.read(self._wall_clock()):
+            for message in self._reader.receive(chunk):
+                frame = bytes(message.get_msgbuf())
+                for channel in self._addressed(getattr(message, "target_system", 0)):
+                    channel.hear(frame)
+
+    def _addressed(self, system_id: int) -> Sequence[Channel]:
+        if system_id == 0:
+            return list(self._channels.values())
+        channel = self._channels.get(system_id)
+        return [] if channel is None else [channel]
+
+
+@contextmanager
+def open_ground_link(url: str, vehicles: Sequence[SimulatedVehicle], *, option: str) -> Iterator[GroundLink]:
+    """A ground link on the transport that `url` names, which closes with it. `option` is how the user asked for it.
+
+    Raises:
+        InputError: it cannot be opened.
+    """
+    try:
+        transport = transport_of(url).__enter__()
+    except TransportError as error:
+        raise InputError(f"{option}: {error}") from error
+    with transport:
+        yield GroundLink(transport, vehicles)

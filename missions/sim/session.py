@@ -1,0 +1,91 @@
+"""One vehicle in real time on its links, until Ctrl-C. Clock, signals and terminal are here; the vehicle knows none."""
+
+from __future__ import annotations
+
+import signal
+import sys
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack, suppress
+from itertools import count
+from math import radians
+
+from comms.clock import RealTime
+from missions.ground_link import GroundLink, open_ground_link
+from missions.problems import InputError, did_you_mean
+from missions.sim.options import SimOptions
+from vehicle_sim.autopilot import SimulatedVehicle
+from vehicle_sim.autopilot.parameters import INDEX
+from vehicle_sim.vehicle import VehicleConfig
+
+STOPPED = 130
+TICK_S = 0.02  # of the vehicle's clock: its fastest stream is 50 Hz
+TOO_LATE_S = 0.5  # further behind, the vehicle's clock is let slip
+TELL_PERIOD_TICKS = round(10.0 / TICK_S)
+
+
+def simulate(options: SimOptions) -> int:
+    """Fly a vehicle until Ctrl-C. Returns the exit code.
+
+    Raises:
+        InputError: a link that cannot be opened, or a parameter that the vehicle does not have.
+    """
+    vehicle = power_on(options)
+    with ExitStack() as stack:
+        before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+        stack.callback(signal.signal, signal.SIGTERM, before)
+        links = [stack.enter_context(open_ground_link(url, [vehicle], option="--link")) for url in options.links]
+        _tell(f"{options.flavour} vehicle {options.system_id} on {', '.join(link.url for link in links)}")
+        with suppress(KeyboardInterrupt):
+            _run(vehicle, links, speed=options.speed)
+        for link in links:
+            _tell(f"{link.url}: {link.received} frames in, {link.sent} out, {link.bad} bad, {link.dropped} dropped")
+    return STOPPED
+
+
+def power_on(options: SimOptions) -> SimulatedVehicle:
+    """The vehicle, at home and just switched on.
+
+    Raises:
+        InputError: a parameter that it does not have, or that cannot be set.
+    """
+    vehicle = FLAVOURS[options.flavour](options)
+    for name, value in options.parameters:
+        if name not in INDEX:
+            raise InputError(f"--param: got {name}, which it does not have{did_you_mean(name, INDEX)}")
+        if not vehicle.autopilot.parameters.store(name, value):
+            raise InputError(f"--param: got {name}={value:g}; allowed: another parameter, {name} is read-only")
+    return vehicle
+
+
+def _ardupilot(options: SimOptions) -> SimulatedVehicle:
+    return SimulatedVehicle(
+        config=VehicleConfig(boot_s=options.boot_s),
+        system_id=options.system_id,
+        home=options.home,
+        heading_rad=radians(options.heading_deg),
+        seed=options.seed,
+    )
+
+
+FLAVOURS: dict[str, Callable[[SimOptions], SimulatedVehicle]] = {"ardupilot": _ardupilot}
+
+
+def _run(vehicle: SimulatedVehicle, links: Sequence[GroundLink], *, speed: float) -> None:
+    pace, late_since = RealTime(tick_s=TICK_S, speed=speed), -TELL_PERIOD_TICKS
+    for tick in count(1):
+        late_s = pace.begin(tick)
+        if late_s > TOO_LATE_S:
+            pace = RealTime(tick_s=TICK_S, speed=speed)
+            if tick - late_since >= TELL_PERIOD_TICKS:
+                late_since = tick
+                _tell(f"too slow for {speed:g} times real time: {late_s:.1f} s late, and the vehicle's clock slips")
+        for link in links:
+            link.hear()
+        vehicle.tick(tick * TICK_S)
+        for link in links:
+            link.say()
+
+
+def _tell(line: str) -> None:
+    sys.stdout.write(f"{line}\n")
+    sys.stdout.flush()
