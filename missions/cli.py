@@ -22,7 +22,7 @@ from missions.overrides import Override
 from missions.problems import InputError
 from missions.sim.options import EXAMPLES as SIM_EXAMPLES
 from missions.sim.options import add_options as add_sim_options
-from missions.sim.options import sim_options
+from missions.sim.options import link, sim_options
 
 if TYPE_CHECKING:
     from missions.study.shards import Shard
@@ -54,7 +54,9 @@ def launch(options: argparse.Namespace) -> int:
     from missions.launch import launch as fly
 
     speed = speed_of(mission, options.speed)
-    settings = LaunchOptions(speed=speed, record=options.record, report=options.report, view=options.view)
+    settings = LaunchOptions(
+        speed=speed, record=options.record, report=options.report, view=options.view, gcs=tuple(options.gcs)
+    )
     return fly(mission, options=settings)
 
 
@@ -175,6 +177,7 @@ _TOP = """examples:
 _LAUNCH = """examples:
   swarm launch quickstart --record out/q.rrd --report out/q.json
   swarm launch narrow --seed 7 --duration 60 --speed 1 --view
+  swarm launch quickstart --speed 1 --gcs udpout:127.0.0.1:14550      watched by a ground station
   swarm launch my.yaml --set radio.loss=0.3 --set 'targets={motion: static, count: 4}'"""
 
 _CHECK = """examples:
@@ -238,6 +241,14 @@ def _parser() -> argparse.ArgumentParser:
     )
     flying.add_argument("--record", type=_new_file, metavar="F.rrd", help="write a recording for rerun")
     flying.add_argument("--report", type=_report, metavar="F.json", help="write the report; - is standard output")
+    flying.add_argument(
+        "--gcs",
+        type=link,
+        action="append",
+        default=[],
+        metavar="URL",
+        help="show the whole swarm to ground stations there, such as udpout:127.0.0.1:14550; may be repeated",
+    )
     flying.add_argument("--view", action="store_true", help="open a viewer and watch")
 
     checking = _verb(verbs, "check", check, "validate missions", _CHECK)

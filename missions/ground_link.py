@@ -46,30 +46,17 @@ class GroundLink:
         self._channels = {vehicle.autopilot.system_id: vehicle.open_channel() for vehicle in vehicles}
         self.url = transport.url
 
-    @property
-    def received(self) -> int:
-        """Frames from ground stations so far."""
-        return self._reader.received
-
-    @property
-    def bad(self) -> int:
-        """Stretches of what came that were no frame."""
-        return self._reader.bad
-
-    @property
-    def sent(self) -> int:
-        """Frames to ground stations so far."""
-        return sum(channel.endpoint.sent for channel in self._channels.values())
-
-    @property
-    def dropped(self) -> int:
-        """Frames that were too many, on either way."""
-        return self._reader.dropped + sum(channel.endpoint.dropped for channel in self._channels.values())
-
-    @property
-    def lost_bytes(self) -> int:
-        """What the transport could not take or deliver: somebody sends too much, or reads too slowly."""
-        return self._transport.counts.dropped_in + self._transport.counts.dropped_out
+    def __str__(self) -> str:
+        """What went through it, in a line."""
+        channels = [channel.endpoint for channel in self._channels.values()]
+        sent = sum(end.sent for end in channels)
+        dropped = self._reader.dropped + sum(end.dropped for end in channels)
+        counts = self._transport.counts
+        lost = counts.dropped_in + counts.dropped_out
+        return (
+            f"{self.url}: {self._reader.received} frames in, {sent} out, {self._reader.bad} bad, {dropped} dropped; "
+            f"{lost} bytes lost in transport"
+        )
 
     def observe(self, observation: Observation) -> None:
         """After a tick of the mission: say what the vehicles said in it, hear what they hear in the next."""

@@ -17,6 +17,7 @@ from comms.clock import Lockstep, Pace, RealTime
 from comms.session import open_local_bus
 from comms.transport import Transport, TransportError, transport_of
 from missions.flight import Flight
+from missions.ground_link import open_ground_link
 from missions.load import dump_mission
 from missions.log import EventLog
 from missions.metrics import Metrics
@@ -27,6 +28,7 @@ from missions.plan import coverage_floor
 from missions.problems import InputError, OutputError
 from missions.progress import ProgressBar
 from missions.report import PACKAGES, as_json, as_table, make_report, versions
+from vehicle_sim.autopilot import SimulatedVehicle
 
 if TYPE_CHECKING:
     from missions.recording import Recorder
@@ -86,7 +88,8 @@ def _fly(flight: Flight, metrics: Metrics, request: StopRequest, console: Consol
     mission = flight.mission
     kept = True
     with ExitStack() as stack:
-        observers: list[Observer] = [metrics]
+        links = [stack.enter_context(open_ground_link(url, _simulated(flight), option="--gcs")) for url in options.gcs]
+        observers: list[Observer] = [*links, metrics]
         if mission.in_real_time:
             observers.append(EventLog(console))
         recorder = recorder_of(flight, options) if options.record is not None or options.view else None
@@ -102,10 +105,17 @@ def _fly(flight: Flight, metrics: Metrics, request: StopRequest, console: Consol
             flight.run(pace=_pace(mission, options), observers=observers, stop=lambda: request.asked)
         finally:
             kept = recorder is None or _closed(recorder, metrics, flight)
+        for link in links:
+            console.print(f"{link}")
     if request.asked and not flight.complete:
         flown_s = flight.ticks_flown * mission.tick_s
         metrics.fault(flight.clock_s, None, f"stopped by Ctrl-C after {flown_s:.1f} s of {mission.duration_s:g} s")
     return kept
+
+
+def _simulated(flight: Flight) -> list[SimulatedVehicle]:
+    """The vehicles that are ours to show; a ground station has its own link to those elsewhere."""
+    return [vehicle for vehicle in flight.vehicles if isinstance(vehicle, SimulatedVehicle)]
 
 
 def _closed(recorder: Recorder, metrics: Metrics, flight: Flight) -> bool:

@@ -19,12 +19,14 @@ class LaunchOptions:
         record: the rerun recording to write, if any.
         report: the JSON report to write, if any; `-` is standard output.
         view: whether to open a viewer.
+        gcs: URLs of ports for ground stations, the whole swarm on each.
     """
 
     speed: float = inf
     record: Path | None = None
     report: str | None = None
     view: bool = False
+    gcs: tuple[str, ...] = ()
 
 
 def speed_of(mission: Mission, asked: float | None) -> float:

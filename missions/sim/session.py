@@ -38,7 +38,7 @@ def simulate(options: SimOptions) -> int:
         with suppress(KeyboardInterrupt):
             _run(vehicle, links, speed=options.speed)
         for link in links:
-            _tell(f"{link.url}: {link.received} frames in, {link.sent} out, {link.bad} bad, {link.dropped} dropped")
+            _tell(str(link))
     return STOPPED
 
 
