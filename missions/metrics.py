@@ -95,7 +95,8 @@ class Metrics:
         for status in observation.statuses:
             errors = [event.text for event in status.events if event.level is Level.ERROR]
             gone = status.activity is Activity.LOST or (
-                observation.mission_tick is not None and status.activity in (Activity.RETURNING, Activity.LANDED)
+                observation.mission_tick is not None
+                and status.activity in (Activity.TAKEN_OVER, Activity.RETURNING, Activity.LANDED)
             )
             changed = status.uid not in before or before[status.uid].activity is not status.activity
             if gone and changed and not errors:

@@ -98,7 +98,7 @@ class Agent:
         come_home = order.come_home or self._guard.spent(state.battery)
         frame: Frame | None = None
         intent: Intent
-        on_duty = state.ready and order.mission_tick is not None and not come_home
+        on_duty = state.ready and not state.link_lost and order.mission_tick is not None and not come_home
         if on_duty and order.mission_tick is not None and state.position_m and state.velocity_m_s:
             self._perceive(now_s, state.position_m, sightings, inbox)
             intent = self._decide(now_s, order.mission_tick, state.position_m)

@@ -6,31 +6,39 @@ from comms.frames import Vec3
 from comms.status import Level
 from swarm_agent.autopilot.cockpit import Cockpit
 from swarm_agent.autopilot.ending import Descent, Failed
+from swarm_agent.autopilot.errand import Errand, Progress
 from swarm_agent.autopilot.intent import Fly, Intent, Land, Return
+from swarm_agent.autopilot.requests import set_mode
 from swarm_agent.autopilot.setpoint import hold_layer, limit_speed, velocity_setpoint
 from swarm_agent.autopilot.stage import OnTheWay, Stage
 from swarm_agent.autopilot.state import Phase
 
 POSITION_FRESH_S = 1.5  # holding a layer by an older altitude would climb or sink without end
+GAP_S = 2.0  # between heartbeats, which come once a second: the link was lost meanwhile
+LEAD_S = 1.0  # of setpoints before the mode that needs them; PX4 wants them at more than 2 Hz for a while
 STILL: Vec3 = (0.0, 0.0, 0.0)
 
 
-def interruption(cockpit: Cockpit, intent: Intent) -> Stage | None:
-    """What ends a guided flight: the agent's wish, motors off, or a flight mode that is not ours."""
+def on_layer(cockpit: Cockpit) -> Stage:
+    """The stage of a vehicle whose climb is over."""
+    return OnLayer() if cockpit.in_mode(cockpit.flavor.guided) else Engage()
+
+
+def interruption(cockpit: Cockpit, now_s: float, intent: Intent, *, ours: frozenset[int] | None = None) -> Stage | None:
+    """What ends a guided flight: the agent's wish, motors off, or a flight mode that is not `ours` (None: guided)."""
     telemetry, flavor = cockpit.telemetry, cockpit.flavor
     if isinstance(intent, Return | Land):
         return Descent(on_the_spot=isinstance(intent, Land))
     if not telemetry.armed:
-        # A failsafe may have landed it while the link was down.
-        return Descent() if telemetry.custom_mode in flavor.ends_flight else Failed("disarmed in the air")
-    if telemetry.custom_mode == flavor.guided.custom_mode:
+        return MotorsOff(now_s)
+    if telemetry.custom_mode in (ours or {flavor.guided.custom_mode}):
         return None
-    mode = flavor.mode_name(telemetry.custom_mode)
+    mode, why = flavor.mode_name(telemetry.custom_mode), cockpit.reason(now_s)
     if telemetry.custom_mode in flavor.ends_flight:
-        cockpit.say(Level.WARNING, f"in {mode} without being asked: following it down")
-        return Descent(on_the_spot=cockpit.in_mode(flavor.landing))
-    cockpit.say(Level.WARNING, f"taken over in {mode}: hands off until it is {flavor.guided.name} again")
-    return TakenOver()
+        cockpit.say(Level.ERROR, f"in {mode} without being asked{why}: following it down")
+    else:
+        cockpit.say(Level.WARNING, f"taken over in {mode}{why}: hands off until it is {flavor.guided.name} again")
+    return TakenOver(cockpit)
 
 
 class OnLayer:
@@ -47,7 +55,7 @@ class OnLayer:
 
     def tick(self, cockpit: Cockpit, now_s: float, intent: Intent) -> Stage:
         """Send the setpoint, unless the flight has ended."""
-        stage = interruption(cockpit, intent)
+        stage = interruption(cockpit, now_s, intent)
         if stage is not None:
             return stage
         flying = self.ready and isinstance(intent, Fly)
@@ -97,20 +105,101 @@ class OnLayer:
         self._setpoint_at_s = now_s
 
 
-class TakenOver(OnTheWay):
-    """Somebody else flies: no setpoints. Guided again, it goes on; landed, it is over."""
+class Engage(OnTheWay):
+    """On the layer, but not yet guided: setpoints first, then the mode that needs them."""
 
-    phase = Phase.TAKEN_OVER
+    phase = Phase.TAKEOFF
+
+    def __init__(self) -> None:
+        self._since_s: float | None = None
+        self._errand: Errand | None = None
+
+    def tick(self, cockpit: Cockpit, now_s: float, intent: Intent) -> Stage:
+        """Hold by setpoints, and ask for the mode once they have been coming for a while."""
+        stage = interruption(cockpit, now_s, intent, ours=cockpit.flavor.climbs_in)
+        if stage is not None:
+            return stage
+        guided = cockpit.flavor.guided
+        if cockpit.in_mode(guided):
+            return OnLayer()
+        cockpit.send(velocity_setpoint(STILL, system_id=cockpit.target, now_s=now_s))
+        if self._since_s is None:
+            self._since_s = now_s
+        if now_s - self._since_s < LEAD_S:
+            return self
+        if self._errand is None:
+            limit_s = cockpit.config.refusal_limit_s
+            self._errand = Errand(set_mode(guided), limit_s=limit_s, done=lambda _: cockpit.in_mode(guided))
+        if self._errand.tick(cockpit, now_s) is Progress.GIVEN_UP:
+            return Failed(self._errand.reason, bring_down=True)
+        return self
+
+
+class TakenOver(OnTheWay):
+    """Somebody else flies, a person or a failsafe: hands off. Guided again, it goes on; landed, it is over.
+
+    A person always wins. Only where the link was lost and the vehicle merely waits in the air is it asked back.
+    """
+
+    def __init__(self, cockpit: Cockpit) -> None:
+        self.phase = _phase(cockpit)
+        self._lapsed = cockpit.telemetry.heartbeat_gap_s > GAP_S  # it came about while nobody was heard
+        self._errand: Errand | None = None
 
     def tick(self, cockpit: Cockpit, now_s: float, intent: Intent) -> Stage:
         """Watch, and honor a wish to come down: a person's hand on the mode switch still beats it."""
         telemetry, flavor = cockpit.telemetry, cockpit.flavor
+        self.phase = _phase(cockpit)
         if not telemetry.armed:
-            return Descent()
+            return MotorsOff(now_s)
         if cockpit.in_mode(flavor.guided):
             cockpit.say(Level.INFO, f"{flavor.guided.name} again: going on")
             return OnLayer()
-        wants_down = isinstance(intent, Return | Land)
-        if wants_down or telemetry.custom_mode in flavor.ends_flight:
+        if isinstance(intent, Return | Land):
             return Descent(on_the_spot=isinstance(intent, Land) or cockpit.in_mode(flavor.landing))
+        if flavor.guided_needs_setpoints:  # or nobody could give control back
+            cockpit.send(velocity_setpoint(STILL, system_id=cockpit.target, now_s=now_s))
+        if self._lapsed and telemetry.custom_mode in flavor.lapses_into:
+            self._ask_back(cockpit, now_s)
+        else:
+            self._lapsed = False
         return self
+
+    def _ask_back(self, cockpit: Cockpit, now_s: float) -> None:
+        guided = cockpit.flavor.guided
+        if self._errand is None:
+            cockpit.say(Level.INFO, f"the link was lost and is back: asking for {guided.name}")
+            limit_s = cockpit.config.refusal_limit_s
+            self._errand = Errand(set_mode(guided), limit_s=limit_s, done=lambda _: cockpit.in_mode(guided))
+        if self._errand.tick(cockpit, now_s) is Progress.GIVEN_UP:
+            self._lapsed = False
+
+
+class MotorsOff(OnTheWay):
+    """Disarmed without our asking: landed by a failsafe, fallen, or restarted, which the pilot sees to itself.
+
+    What it was shows when telemetry flows again.
+    """
+
+    phase = Phase.LAND
+
+    def __init__(self, since_s: float) -> None:
+        self._since_s = since_s
+
+    def tick(self, cockpit: Cockpit, now_s: float, intent: Intent) -> Stage:
+        """Wait for news of the vehicle."""
+        telemetry, config = cockpit.telemetry, cockpit.config
+        if telemetry.custom_mode in cockpit.flavor.ends_flight or isinstance(intent, Return | Land):
+            return Descent()
+        if telemetry.attitude_at_s is not None and telemetry.attitude_at_s > self._since_s:
+            return Failed("disarmed in the air")
+        if now_s - self._since_s > config.preflight_limit_s:
+            return Failed(f"disarmed, and silent for {config.preflight_limit_s:g} s")
+        return self
+
+
+def _phase(cockpit: Cockpit) -> Phase:
+    """What somebody else's flight mode means for the agent."""
+    if cockpit.telemetry.custom_mode not in cockpit.flavor.ends_flight:
+        return Phase.TAKEN_OVER
+    return Phase.LAND if cockpit.in_mode(cockpit.flavor.landing) else Phase.RETURN

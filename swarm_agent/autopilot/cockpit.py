@@ -10,6 +10,7 @@ from swarm_agent.autopilot.telemetry import Telemetry
 from swarm_agent.autopilot.texts import TextAssembler
 
 MAX_EVENTS = 200  # of one tick; a vehicle that says more is not heard out
+REASON_S = 3.0  # a text and the heartbeat that shows its effect are this close
 
 
 class Cockpit:
@@ -33,6 +34,7 @@ class Cockpit:
         self.warnings: list[str] = []
         self.last_warning = ""
         self.rates_asked = False
+        self._warned_at_s = float("-inf")
         self._texts = TextAssembler()
         self._events: list[Event] = []
 
@@ -62,7 +64,7 @@ class Cockpit:
         self._events.clear()
         return events
 
-    def hear_text(self, message: Message) -> None:
+    def hear_text(self, message: Message, now_s: float) -> None:
         """Log what the autopilot says; its warnings may explain a refusal."""
         event = self._texts.hear(message)
         if event is None:
@@ -71,6 +73,11 @@ class Cockpit:
         if event.level is not Level.INFO:
             self.warnings.append(event.text)
             self.last_warning = event.text
+            self._warned_at_s = now_s
+
+    def reason(self, now_s: float) -> str:
+        """What the vehicle has just complained about, in brackets, to explain what it does; or nothing."""
+        return f" ({self.last_warning})" if now_s - self._warned_at_s < REASON_S else ""
 
     def in_mode(self, mode: Mode) -> bool:
         """The vehicle says it flies in this mode."""

@@ -33,6 +33,9 @@ class Flavor:
 
     Attributes:
         guided, homing, landing: the modes for following setpoints, for flying home, for landing on the spot.
+        arms_in: the mode to arm and take off from. climbs_in: every custom_mode it may be in until its climb is over.
+        guided_needs_setpoints: it enters `guided`, and stays there, only while setpoints come.
+        lapses_into: every custom_mode in which it waits in the air when nobody has been heard; no person chose it.
         ends_flight: every custom_mode in which the vehicle comes down by itself.
         mode_names: custom_mode -> name.
         takeoff_is_amsl: NAV_TAKEOFF counts from the sea, not from the vehicle's home.
@@ -44,8 +47,12 @@ class Flavor:
     guided: Mode
     homing: Mode
     landing: Mode
+    arms_in: Mode
+    climbs_in: frozenset[int]
     ends_flight: frozenset[int]
+    lapses_into: frozenset[int]
     mode_names: Mapping[int, str]
+    guided_needs_setpoints: bool
     takeoff_is_amsl: bool
     return_altitude: tuple[AltitudeParameter, ...]
     setpoint_memory_s: float
@@ -90,8 +97,12 @@ ARDUPILOT = Flavor(
     guided=Mode("GUIDED", 4, (4.0, 0.0)),
     homing=Mode("RTL", 6, (6.0, 0.0)),
     landing=Mode("LAND", 9, (9.0, 0.0)),
+    arms_in=Mode("GUIDED", 4, (4.0, 0.0)),
+    climbs_in=frozenset({4}),
     ends_flight=frozenset({6, 9, 21, 27}),
+    lapses_into=frozenset({17}),  # BRAKE: what FS_GCS_ENABLE 7 does
     mode_names=ARDUCOPTER_MODES,
+    guided_needs_setpoints=False,
     takeoff_is_amsl=False,
     return_altitude=(
         AltitudeParameter("RTL_ALT", dialect.MAV_PARAM_TYPE_INT32, 100.0),  # centimeters, up to 4.6
@@ -100,8 +111,58 @@ ARDUPILOT = Flavor(
     setpoint_memory_s=3.0,
 )
 
+
+def _px4_mode(name: str, main: int, sub: int = 0) -> Mode:
+    """PX4 counts main modes in the third byte of custom_mode, and AUTO's sub modes in the fourth."""
+    return Mode(name, main << 16 | sub << 24, (float(main), float(sub)))
+
+
+# PX4 px4_custom_mode.h, in PX4's and MAVSDK's words.
+PX4_MODES = {
+    mode.name: mode
+    for mode in (
+        _px4_mode("MANUAL", 1),
+        _px4_mode("ALTCTL", 2),
+        _px4_mode("POSCTL", 3),
+        _px4_mode("READY", 4, 1),
+        _px4_mode("TAKEOFF", 4, 2),
+        _px4_mode("HOLD", 4, 3),
+        _px4_mode("MISSION", 4, 4),
+        _px4_mode("RTL", 4, 5),
+        _px4_mode("LAND", 4, 6),
+        _px4_mode("FOLLOW_ME", 4, 8),
+        _px4_mode("PRECLAND", 4, 9),
+        _px4_mode("ACRO", 5),
+        _px4_mode("OFFBOARD", 6),
+        _px4_mode("STABILIZED", 7),
+    )
+}
+
+
+def _px4_customs(*names: str) -> frozenset[int]:
+    return frozenset(PX4_MODES[name].custom_mode for name in names)
+
+
+PX4 = Flavor(
+    name="px4",
+    guided=PX4_MODES["OFFBOARD"],
+    homing=PX4_MODES["RTL"],
+    landing=PX4_MODES["LAND"],
+    arms_in=PX4_MODES["HOLD"],
+    climbs_in=_px4_customs("HOLD", "TAKEOFF", "OFFBOARD"),
+    ends_flight=_px4_customs("RTL", "LAND", "PRECLAND"),
+    lapses_into=_px4_customs("HOLD", "POSCTL"),  # COM_OBL_RC_ACT: hold, or position mode with centered sticks
+    mode_names=MappingProxyType({mode.custom_mode: name for name, mode in PX4_MODES.items()}),
+    guided_needs_setpoints=True,
+    takeoff_is_amsl=True,
+    return_altitude=(AltitudeParameter("RTL_RETURN_ALT", dialect.MAV_PARAM_TYPE_REAL32, 1.0),),
+    setpoint_memory_s=1.0,  # COM_OF_LOSS_T
+)
+
 # HEARTBEAT.autopilot -> flavor.
-FLAVORS: Mapping[int, Flavor] = MappingProxyType({dialect.MAV_AUTOPILOT_ARDUPILOTMEGA: ARDUPILOT})
+FLAVORS: Mapping[int, Flavor] = MappingProxyType(
+    {dialect.MAV_AUTOPILOT_ARDUPILOTMEGA: ARDUPILOT, dialect.MAV_AUTOPILOT_PX4: PX4}
+)
 
 
 def known_flavors() -> str:

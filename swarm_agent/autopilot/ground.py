@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from comms.status import Level
-from swarm_agent.autopilot.airborne import OnLayer, TakenOver, interruption
+from swarm_agent.autopilot.airborne import OnLayer, TakenOver, interruption, on_layer
 from swarm_agent.autopilot.cockpit import Cockpit
 from swarm_agent.autopilot.ending import Descent, Done, Failed
 from swarm_agent.autopilot.errand import Errand, Progress
@@ -69,7 +69,7 @@ class Preflight(OnTheWay):
             if not flown:
                 return Arm(since_s=now_s)
             cockpit.say(Level.WARNING, "found in the air")
-            return OnLayer() if cockpit.in_mode(cockpit.flavor.guided) else TakenOver()
+            return OnLayer() if cockpit.in_mode(cockpit.flavor.guided) else TakenOver(cockpit)
         if now_s - self._since_s > config.preflight_limit_s:
             words = f" ({cockpit.last_warning})" if cockpit.last_warning else ""
             return Failed(f"{self._checklist.waiting_for} after {config.preflight_limit_s:g} s{words}")
@@ -90,7 +90,7 @@ class Arm(OnTheWay):
         telemetry, config = cockpit.telemetry, cockpit.config
         if isinstance(intent, Return | Land):
             return Descent() if telemetry.armed else Done()
-        if telemetry.position_m is None or not cockpit.in_mode(cockpit.flavor.guided):
+        if telemetry.position_m is None or not cockpit.in_mode(cockpit.flavor.arms_in):
             return Preflight(since_s=self._since_s)
         if self._errand is None:
             limit_s = config.refusal_limit_s - (now_s - self._since_s)
@@ -126,7 +126,7 @@ class Takeoff(OnTheWay):
         if telemetry.landed and not telemetry.armed and not isinstance(intent, Return | Land):
             cockpit.say(Level.WARNING, "disarmed before takeoff: arming again")
             return Arm(since_s=self._since_s)
-        stage = interruption(cockpit, intent)
+        stage = interruption(cockpit, now_s, intent, ours=cockpit.flavor.climbs_in)
         if stage is not None:
             return stage
         position_m = telemetry.position_m
@@ -153,14 +153,14 @@ class Takeoff(OnTheWay):
     def _climb(self, cockpit: Cockpit, now_s: float, up_m: float) -> Stage:
         config, velocity_m_s = cockpit.config, cockpit.telemetry.velocity_m_s
         if abs(up_m - config.altitude_m) <= config.layer_tolerance_m:
-            return OnLayer()
+            return on_layer(cockpit)
         if self._rising_at_s is None or (velocity_m_s is not None and abs(velocity_m_s[2]) > STALLED_M_S):
             self._rising_at_s = now_s
         if now_s - self._rising_at_s > STALLED_S:
             cockpit.say(
                 Level.WARNING, f"takeoff stopped at {up_m:.1f} m of {config.altitude_m:.1f} m: going on by setpoints"
             )
-            return OnLayer()
+            return on_layer(cockpit)
         return self
 
     def altitude_m(self, cockpit: Cockpit) -> float:

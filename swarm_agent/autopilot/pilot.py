@@ -8,16 +8,20 @@ from comms.mavlink import Endpoint, Message
 from comms.status import Event, Level
 from swarm_agent.autopilot.cockpit import Cockpit
 from swarm_agent.autopilot.config import PilotConfig
-from swarm_agent.autopilot.ground import Connect
+from swarm_agent.autopilot.ending import Failed
+from swarm_agent.autopilot.ground import Connect, Preflight
 from swarm_agent.autopilot.intent import Intent
 from swarm_agent.autopilot.requests import AUTOPILOT_COMPONENT_ID
 from swarm_agent.autopilot.stage import Stage
-from swarm_agent.autopilot.state import PilotState
+from swarm_agent.autopilot.state import Phase, PilotState
 from swarm_agent.autopilot.streams import Streams
 
 HEARTBEAT_S = 1.0
 CLOCK_SLACK_S = 1e-6  # ticks of 0.1 s do not add up to 1 s exactly
 EVERYBODY = 0
+MOST_RESTARTS = 3
+ON_GROUND = frozenset({Phase.PREFLIGHT, Phase.ARM})
+UNTOUCHED = frozenset({Phase.CONNECT, Phase.DONE, Phase.FAILED})  # by a restart
 NO_AUTOPILOT: int = dialect.MAV_AUTOPILOT_INVALID
 
 REPLIES = frozenset({
@@ -60,6 +64,7 @@ class Pilot:
         self._cockpit.begin_tick()
         self._hear(wire_in, now_s)
         self._watch_link(now_s)
+        self._watch_restarts(now_s)
 
     def act(self, now_s: float, intent: Intent) -> bytes:
         """What to send to the vehicle now, given what the agent wants; once after each `listen`."""
@@ -116,7 +121,7 @@ class Pilot:
                 if self._for_us(message):
                     cockpit.replies.append(message)
             elif kind is dialect.MAVLink_statustext_message:
-                cockpit.hear_text(message)
+                cockpit.hear_text(message, now_s)
             else:
                 cockpit.telemetry.hear(message, now_s)
 
@@ -146,12 +151,23 @@ class Pilot:
             )
         )
 
+    def _watch_restarts(self, now_s: float) -> None:
+        """A restarted vehicle is checked anew, on the ground or in the air; one that restarts over and over is not."""
+        restarts, phase = self._cockpit.telemetry.restarts, self._stage.phase
+        if restarts == self._restarts:
+            return
+        self._restarts = restarts
+        if phase in UNTOUCHED:
+            return
+        level = Level.WARNING if phase in ON_GROUND else Level.ERROR
+        self._cockpit.say(level, "the autopilot has restarted: it is checked anew")
+        if restarts > MOST_RESTARTS:
+            self._stage = Failed(f"the autopilot has restarted {restarts} times", bring_down=True)
+        else:
+            self._stage = Preflight(since_s=now_s)
+
     def _watch_link(self, now_s: float) -> None:
-        telemetry = self._cockpit.telemetry
-        if telemetry.restarts != self._restarts:
-            self._restarts = telemetry.restarts
-            self._cockpit.say(Level.WARNING, "the autopilot has restarted")
-        heard_at_s = telemetry.heartbeat_at_s
+        heard_at_s = self._cockpit.telemetry.heartbeat_at_s
         if heard_at_s is None or (now_s - heard_at_s > self.config.link_lost_s) == self._link_lost:
             return
         self._link_lost = not self._link_lost

@@ -118,8 +118,8 @@ class Checklist:
         return "" if cockpit.telemetry.prearm_ok else "waiting for the pre-arm checks"
 
     def guided(self, cockpit: Cockpit, now_s: float) -> str:
-        """The vehicle listens to us."""
-        mode = cockpit.flavor.guided
+        """The vehicle is in the mode it takes off from: it listens to us."""
+        mode = cockpit.flavor.arms_in
         if cockpit.in_mode(mode):
             return ""
         limit_s = cockpit.config.refusal_limit_s

@@ -13,7 +13,7 @@ class Phase(StrEnum):
     """Where the pilot stands between switched on and landed.
 
     CONNECT -> PREFLIGHT -> ARM -> TAKEOFF -> ON_STATION <-> FLYING -> RETURN | LAND -> DONE; from the air also
-    TAKEN_OVER (and back), from anywhere FAILED.
+    TAKEN_OVER (and back), from anywhere FAILED; when the autopilot restarts, PREFLIGHT again.
     """
 
     CONNECT = "connect"  # no heartbeat yet

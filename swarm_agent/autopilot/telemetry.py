@@ -22,6 +22,7 @@ class Telemetry:
 
     Attributes:
         heartbeat_at_s, position_at_s, attitude_at_s: when they were last heard; None before.
+        heartbeat_gap_s: between the last heartbeat and the one before.
         autopilot: HEARTBEAT.autopilot, None before the first.
         origin_m: the vehicle's own origin in the mission's frame.
         position_m, velocity_m_s: in the mission's frame; position None until origin and local position are known.
@@ -33,9 +34,9 @@ class Telemetry:
     """
 
     __slots__ = (
-        "armed", "attitude_at_s", "autopilot", "battery", "boot_ms", "custom_mode", "geo", "has_fix", "heading_rad",
-        "heartbeat_at_s", "home", "ignored", "landed_state", "local_enu_m", "origin_m", "position_at_s", "position_m",
-        "prearm_ok", "restarts", "system_status", "velocity_m_s",
+        "armed", "attitude_at_s", "autopilot", "battery", "boot_ms", "clock_at_s", "custom_mode", "geo", "has_fix",
+        "heading_rad", "heartbeat_at_s", "heartbeat_gap_s", "home", "ignored", "landed_state", "local_enu_m",
+        "origin_m", "position_at_s", "position_m", "prearm_ok", "restarts", "system_status", "velocity_m_s",
     )  # fmt: skip
 
     def __init__(self, home: GeoPoint) -> None:
@@ -47,6 +48,8 @@ class Telemetry:
         self.system_status = 0
         self.restarts = 0
         self.ignored = 0
+        self.heartbeat_gap_s = 0.0
+        self.clock_at_s = 0.0
         self.forget()
 
     def forget(self) -> None:
@@ -97,9 +100,15 @@ class Telemetry:
             origin = self.origin_m
             self.position_m = (origin[0] + east, origin[1] + north, origin[2] + up)
 
-    def clock(self, boot_ms: int) -> None:
-        """Watch the vehicle's boot clock: when it falls back, what was known is of another life."""
-        if boot_ms + RESTART_MS < self.boot_ms:
+    def clock(self, boot_ms: int, now_s: float) -> None:
+        """Watch the vehicle's boot clock: when it falls back, what was known is of another life.
+
+        After a long silence it may be ahead of the last one heard and still a new one: it has not run all the while.
+        """
+        silent_ms = 1000.0 * (now_s - self.clock_at_s)
+        stood_still = not self.armed and boot_ms - self.boot_ms + RESTART_MS < silent_ms
+        self.clock_at_s = now_s
+        if boot_ms + RESTART_MS < self.boot_ms or (self.boot_ms > 0 and stood_still):
             self.restarts += 1
             self.forget()
         self.boot_ms = boot_ms
@@ -111,6 +120,8 @@ IN_FLIGHT = frozenset({dialect.MAV_STATE_ACTIVE, dialect.MAV_STATE_CRITICAL, dia
 
 
 def _heartbeat(telemetry: Telemetry, message: Message, now_s: float) -> bool:
+    if telemetry.heartbeat_at_s is not None:
+        telemetry.heartbeat_gap_s = now_s - telemetry.heartbeat_at_s
     telemetry.heartbeat_at_s = now_s
     telemetry.autopilot = message.autopilot
     telemetry.armed = bool(message.base_mode & dialect.MAV_MODE_FLAG_SAFETY_ARMED)
@@ -127,7 +138,7 @@ def _local_position(telemetry: Telemetry, message: Message, now_s: float) -> boo
         return False
     if not (abs(v_north) + abs(v_east) + abs(v_down) < LARGEST_SPEED_M_S):
         return False
-    telemetry.clock(message.time_boot_ms)
+    telemetry.clock(message.time_boot_ms, now_s)
     telemetry.local_enu_m = (east, north, -down)
     telemetry.velocity_m_s = (v_east, v_north, -v_down)
     telemetry.position_at_s = now_s
@@ -138,7 +149,7 @@ def _local_position(telemetry: Telemetry, message: Message, now_s: float) -> boo
 def _attitude(telemetry: Telemetry, message: Message, now_s: float) -> bool:
     if not isfinite(message.yaw):
         return False
-    telemetry.clock(message.time_boot_ms)
+    telemetry.clock(message.time_boot_ms, now_s)
     telemetry.attitude_at_s = now_s
     telemetry.heading_rad = message.yaw % tau
     return True

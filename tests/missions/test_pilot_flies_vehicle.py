@@ -36,7 +36,15 @@ class Flight:
         self.phases = [Phase.CONNECT]
         self.track_m: list[Vec3] = []
         self.ticks = 0
+        self.cut_s = self.deaf_s = 0.0  # how long nothing comes through, or nothing to the vehicle
+        self._config = vehicle or VehicleConfig()
         self._up = b""
+
+    def reboot(self) -> Flight:
+        """The vehicle is switched off and on again, and stands where it stood at first."""
+        home, now_s = geo_from_enu(MISSION_HOME, self.offset_m), self.ticks * TICK_S
+        self.vehicle = SimulatedVehicle(config=self._config, system_id=4, home=home, seed=7, started_at_s=now_s)
+        return self
 
     @property
     def truth_m(self) -> Vec3:
@@ -56,7 +64,10 @@ class Flight:
         for _ in range(round(seconds / TICK_S)):
             self.ticks += 1
             now_s = self.ticks * TICK_S
-            wire = self.vehicle.tick(now_s, self._up + self.second.take())
+            deaf, cut = self.deaf_s > 0.0, self.cut_s > 0.0
+            self.deaf_s, self.cut_s = self.deaf_s - TICK_S, self.cut_s - TICK_S
+            wire = self.vehicle.tick(now_s, (b"" if deaf or cut else self._up) + self.second.take())
+            wire = b"" if cut else wire
             self._up = self.pilot.tick(now_s, wire, intent)
             self.events += self.pilot.take_events()
             self.track_m.append(self.truth_m)
@@ -176,6 +187,76 @@ class TestNotAsPlanned:
         flight.second.send(dialect.MAVLink_command_long_message(4, 1, 400, 0, *forced))
         flight.run(Prepare(), seconds=5.0, until=lambda: flight.state.phase is Phase.FAILED)
         assert flight.state.failure == "disarmed in the air"
+
+    def test_a_pilots_return_can_be_given_back_on_the_way(self) -> None:
+        flight = Flight().climbed().run(Fly((4.0, 0.0)), seconds=10.0)
+        flight.second.send(mode_command(6))
+        flight.run(Fly((4.0, 0.0)), seconds=3.0, until=lambda: flight.state.phase is Phase.RETURN)
+        flight.run(Fly((4.0, 0.0)), seconds=2.0)
+        flight.second.send(mode_command(4))
+        flight.run(Fly((4.0, 0.0)), seconds=5.0, until=lambda: flight.state.phase is Phase.FLYING)
+        assert "GUIDED again: going on" in flight.texts
+
+    def test_a_failsafe_is_an_error_that_gives_the_autopilots_reason(self) -> None:
+        flight = Flight().climbed()
+        flight.second.send(dialect.MAVLink_param_set_message(4, 1, b"FS_GCS_ENABLE", 1.0, 9))
+        flight.run(Prepare(), seconds=2.0).deaf_s = 8.0
+        flight.run(Prepare(), seconds=20.0, until=lambda: flight.state.phase is Phase.RETURN)
+        errors = [event.text for event in flight.events if event.level is Level.ERROR]
+        assert errors == ["in RTL without being asked (GCS Failsafe): following it down"]
+        flight.ended(Prepare())
+
+    def test_hovering_alone_while_the_link_was_lost_it_is_asked_back(self) -> None:
+        flight = Flight().climbed().run(Fly((2.0, 0.0)), seconds=5.0)
+        flight.second.send(dialect.MAVLink_param_set_message(4, 1, b"FS_GCS_ENABLE", 7.0, 9))  # BRAKE or land
+        flight.run(Fly((2.0, 0.0)), seconds=1.0).cut_s = 9.0
+        flight.run(Fly((2.0, 0.0)), seconds=8.0)
+        assert flight.state.link_lost
+        assert flight.vehicle.mode_name == "BRAKE"
+        flight.run(Fly((2.0, 0.0)), seconds=10.0, until=lambda: flight.vehicle.mode_name == "GUIDED")
+        flight.run(Fly((2.0, 0.0)), seconds=3.0, until=lambda: flight.state.phase is Phase.FLYING)
+        assert "the link was lost and is back: asking for GUIDED" in flight.texts
+
+    def test_hovering_by_a_persons_choice_it_is_not_asked_back(self) -> None:
+        flight = Flight().climbed()
+        flight.second.send(mode_command(17))
+        flight.run(Fly((2.0, 0.0)), seconds=20.0)
+        assert flight.state.phase is Phase.TAKEN_OVER
+        assert flight.vehicle.mode_name == "BRAKE"
+
+    def test_a_link_lost_and_found_in_guided_flight_is_flown_on(self) -> None:
+        flight = Flight().climbed().run(Fly((2.0, 0.0)), seconds=2.0)
+        flight.cut_s = 8.0
+        flight.run(Fly((2.0, 0.0)), seconds=7.0)
+        assert flight.state.link_lost
+        assert hypot(*flight.vehicle.truth.velocity_ned_m_s) < 0.3  # it has stopped by itself
+        flight.run(Fly((2.0, 0.0)), seconds=5.0)
+        assert flight.state.phase is Phase.FLYING
+        assert hypot(*flight.vehicle.truth.velocity_ned_m_s) > 1.8
+
+    def test_restarted_on_the_ground_it_is_checked_anew_and_flies(self) -> None:
+        flight = Flight(vehicle=VehicleConfig(boot_s=20.0)).run(Prepare(), seconds=15.0).reboot()
+        flight.climbed()
+        assert flight.phases.count(Phase.TAKEOFF) == 1
+        assert not [event for event in flight.events if event.level is Level.ERROR]
+
+    @pytest.mark.parametrize("dark_s", [0.0, 3.0, 90.0])  # the last longer than it had been on
+    def test_restarted_in_flight_it_takes_off_again(self, dark_s: float) -> None:
+        flight = Flight().climbed().run(Fly((2.0, 0.0)), seconds=8.0)
+        flight.cut_s = dark_s
+        flight.reboot().run(Fly((2.0, 0.0)), seconds=dark_s)
+        flight.run(Fly((2.0, 0.0)), seconds=20.0, until=lambda: flight.state.phase is Phase.PREFLIGHT)
+        flight.run(Fly((2.0, 0.0)), seconds=60.0, until=lambda: flight.state.phase is Phase.FLYING)
+        assert "the autopilot has restarted: it is checked anew" in flight.texts
+        assert flight.vehicle.autopilot.parameters["RTL_ALT"] == pytest.approx(1600.0, abs=50.0)
+        assert flight.state.position_m == pytest.approx(flight.truth_m, abs=0.6)
+        flight.ended(Return())
+
+    def test_restarting_over_and_over_it_is_given_up(self) -> None:
+        flight = Flight().climbed()
+        for _ in range(4):
+            flight.reboot().run(Prepare(), seconds=25.0)
+        assert flight.state.failure == "the autopilot has restarted 4 times"
 
     def test_the_same_seed_flies_the_same_flight(self) -> None:
         def track() -> list[Vec3]:

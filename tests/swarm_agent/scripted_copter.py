@@ -44,6 +44,8 @@ class ScriptedCopter:
     velocity_ned_m_s: Vec3 = (0.0, 0.0, 0.0)
     heard: list[Message] = field(default_factory=list)
 
+    guided, climbing, homing, landing = GUIDED, GUIDED, RTL, LAND
+
     def __post_init__(self) -> None:
         self.endpoint = Endpoint(system_id=self.system_id)
         self.climb_to_m: float | None = None
@@ -88,7 +90,7 @@ class ScriptedCopter:
             name = message.param_id.encode()
             self.endpoint.send(dialect.MAVLink_param_value_message(name, message.param_value, 6, 1364, 0xFFFF))
         elif isinstance(message, dialect.MAVLink_set_position_target_local_ned_message):
-            if self.mode == GUIDED and not self.landed:
+            if self.mode == self.guided and not self.landed:
                 self.velocity_ned_m_s, self.climb_to_m = (message.vx, message.vy, message.vz), None
         elif isinstance(message, dialect.MAVLink_request_data_stream_message):
             self.streams |= {dialect.MAVLINK_MSG_ID_ATTITUDE, dialect.MAVLINK_MSG_ID_LOCAL_POSITION_NED}
@@ -132,9 +134,9 @@ class ScriptedCopter:
 
     def _move(self, dt_s: float) -> None:
         place = self.local_ned_m
-        if self.mode != GUIDED:
+        if self.mode not in (self.guided, self.climbing):
             self.climb_to_m, self.velocity_ned_m_s = None, (0.0, 0.0, 0.0)
-        if self.armed and self.mode in (RTL, LAND):
+        if self.armed and self.mode in (self.homing, self.landing):
             self._descend(dt_s)
         elif self.climb_to_m is not None:
             place[2] = max(place[2] - 2.5 * dt_s, -self.climb_to_m)
@@ -145,7 +147,7 @@ class ScriptedCopter:
 
     def _descend(self, dt_s: float) -> None:
         place, away_m = self.local_ned_m, hypot(self.local_ned_m[0], self.local_ned_m[1])
-        if self.mode == RTL and away_m > 0.5:
+        if self.mode == self.homing and away_m > 0.5:
             shrink = max(0.0, 1.0 - 5.0 * dt_s / away_m)
             place[0], place[1] = place[0] * shrink, place[1] * shrink
             return
@@ -156,7 +158,7 @@ class ScriptedCopter:
     def _tell(self, now_s: float) -> None:
         boot_ms = round(now_s * 1000.0)
         if self._ticks % 10 == 0:
-            flags = 81 | (8 if self.mode == GUIDED else 0) | (128 if self.armed else 0)
+            flags = 81 | (8 if self.mode == self.guided else 0) | (128 if self.armed else 0)
             status = 4 if self.armed and not self.landed else 3
             self.endpoint.send(dialect.MAVLink_heartbeat_message(2, self.autopilot, flags, self.mode, status, 3))
             self._tell_slow(boot_ms)

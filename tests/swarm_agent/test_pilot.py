@@ -103,7 +103,7 @@ class TestConnect:
 
     def test_an_unknown_autopilot_is_named(self) -> None:
         flight = Flight(ScriptedCopter(autopilot=dialect.MAV_AUTOPILOT_PPZ)).until(Phase.FAILED, Prepare())
-        assert flight.pilot.state.failure == "MAV_AUTOPILOT 9 is not supported, only ardupilot"
+        assert flight.pilot.state.failure == "MAV_AUTOPILOT 9 is not supported, only ardupilot, px4"
 
     def test_return_before_any_heartbeat_ends(self) -> None:
         flight = Flight(ScriptedCopter(quiet=True)).until(Phase.FAILED, Return(), seconds=1.0)
@@ -159,7 +159,7 @@ class TestPreflight:
         second = ScriptedCopter(offset_m=(7.0, 0.0, 0.0))
         flight.copter = RestartedClock(second)  # type: ignore[assignment]
         flight.run(Prepare(), until=lambda: flight.pilot.state.ready)
-        assert "the autopilot has restarted" in flight.texts
+        assert "the autopilot has restarted: it is checked anew" in flight.texts
         position_m = flight.pilot.state.position_m
         assert position_m is not None
         assert position_m[0] == pytest.approx(7.0, abs=0.1)
