@@ -20,6 +20,7 @@ from vehicle_sim.autopilot.streams import Streams
 from vehicle_sim.autopilot.telemetry import BUILDERS, CUSTOM_MODE
 
 FORCE_ARM, FORCE_DISARM = 2989.0, 21196.0
+MISSION_CURRENT_ID = 42
 LONGEST_PERIOD_US = 2**31 - 1
 
 
@@ -92,7 +93,7 @@ def _return_to_launch(request: Request) -> Result:
 
 
 def _change_speed(request: Request) -> Result:
-    return _done(request.pilot.change_speed(request.number(1), request.params[1]))
+    return _done(request.pilot.guidance.steering.change_speed(request.number(1), request.params[1]))
 
 
 def _get_home(request: Request) -> Result:
@@ -139,12 +140,30 @@ def _no_message(request: Request, message_id: int, result: Result) -> Result:
     return result
 
 
+def _mission_start(request: Request) -> Result:
+    return _done(request.pilot.start_mission())
+
+
+def _set_mission_current(request: Request) -> Result:
+    pilot, seq = request.pilot, request.number(1)
+    if not 0 <= seq < len(pilot.mission.items):
+        return Result.DENIED
+    if request.params[1] == 1.0:
+        pilot.mission.reset()
+    if not pilot.mission.select(seq):
+        return Result.FAILED
+    request.replies.append(BUILDERS[MISSION_CURRENT_ID](pilot))
+    return Result.ACCEPTED
+
+
 COMMANDS: dict[int, Handler] = {
     20: _return_to_launch,  # NAV_RETURN_TO_LAUNCH
     21: _land,  # NAV_LAND
     22: _takeoff,  # NAV_TAKEOFF
     176: _do_set_mode,  # DO_SET_MODE
     178: _change_speed,  # DO_CHANGE_SPEED
+    224: _set_mission_current,  # DO_SET_MISSION_CURRENT
+    300: _mission_start,  # MISSION_START
     400: _arm_disarm,  # COMPONENT_ARM_DISARM
     410: _get_home,  # GET_HOME_POSITION
     510: _get_message_interval,  # GET_MESSAGE_INTERVAL

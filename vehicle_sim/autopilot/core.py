@@ -5,18 +5,21 @@ What it has to say is collected in `texts`; `announce` is set when a heartbeat s
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import ceil
 
-from comms.frames import GeoPoint
+from comms.frames import GeoPoint, enu_from_geo, geo_from_enu, swap_enu_ned
 from vehicle_sim.autopilot.arming import Reminder, complaints
 from vehicle_sim.autopilot.boot import Boot
 from vehicle_sim.autopilot.failsafes import Failsafes
 from vehicle_sim.autopilot.guidance import Guidance
+from vehicle_sim.autopilot.mission import Mission, State
 from vehicle_sim.autopilot.modes import MODES, Mode
 from vehicle_sim.autopilot.parameters import LIMIT_NAMES, Parameters
+from vehicle_sim.autopilot.plans.item import Item
+from vehicle_sim.autopilot.plans.store import KINDS, Store
+from vehicle_sim.autopilot.setpoints import Setpoint
 from vehicle_sim.autopilot.severity import CRITICAL, INFO, WARNING
-from vehicle_sim.autopilot.steering import TIME_SLACK_S
+from vehicle_sim.autopilot.steering import TIME_SLACK_S, Steering
 from vehicle_sim.autopilot.sticks import NO_RADIO, TIMEOUT_S, Sticks
 from vehicle_sim.battery import IDLE_SHARE, Charge
 from vehicle_sim.flight import Airframe, Multirotor
@@ -28,7 +31,8 @@ LANDED_AFTER_S = 1.3  # on the ground until the land detector believes it (recor
 DISARMED_AFTER_S = 2.1  # on the ground until LAND and RTL disarm (recorded)
 YAW_ALIGNMENT_M = 2.5
 HIGHEST_TAKEOFF_M = 10_000.0
-FASTEST_M_S = 100.0
+FURTHEST_M = 1e6
+ARMS_IN_AUTO = 1  # a bit of AUTO_OPTIONS
 
 
 class Autopilot:
@@ -44,7 +48,7 @@ class Autopilot:
         seed: int,
         started_at_s: float,
     ) -> None:
-        self.home = home
+        self.origin = home
         self.system_id = system_id
         self.started_at_s = self.now_s = started_at_s
         self.wind = LocalWind(config.wind, seed=seed, who=system_id)
@@ -61,7 +65,10 @@ class Autopilot:
         self.charge = Charge(config.battery)
         self.boot = Boot(boot_s=config.boot_s, field_elevation_m=home.altitude_m)
         self.texts: list[tuple[int, str]] = []
-        self.guidance = Guidance(airframe=self.airframe, parameters=self.parameters, say=self.say)
+        self.missions, self.fences, self.rallies = (Store(kind) for kind in KINDS)
+        self.mission = Mission(self.missions, say=self.say)
+        steering = Steering(airframe=self.airframe, parameters=self.parameters, origin=home, say=self.say)
+        self.guidance = Guidance(steering=steering, mission=self.mission)
         self.parameters.on_change(LIMIT_NAMES, self.guidance.retune)
         self.mode = Mode.STABILIZE
         self.armed = False
@@ -88,7 +95,7 @@ class Autopilot:
             return False
         if mode is self.mode:
             return True
-        if not self.guidance.can_enter(mode):
+        if not self.guidance.can_enter(mode, armed=self.armed, flying=self.flying):
             self.say(WARNING, f"Mode change to {mode.name} failed: init failed")
             return False
         self.mode = mode
@@ -100,7 +107,7 @@ class Autopilot:
         if self.armed:
             return True
         reasons = [] if forced else complaints(self)
-        if not forced and not MODES[self.mode].armable:
+        if not forced and not self._armable:
             reasons.append("Mode not armable")
         for reason in reasons:
             self.say(CRITICAL, f"Arm: {reason}")
@@ -120,9 +127,10 @@ class Autopilot:
             return True
         if self.flying and not forced:
             return False
-        self.armed = self.flying = False
+        self.armed = self.flying = self.guidance.steering.throttle_up = False
+        self.mission.reset()
         self.announce = True
-        self.guidance.enter(self.mode, self.now_s)
+        self.guidance.rest(self.now_s)
         self._reminder.restart(self.now_s)
         self.say(INFO, "Disarming motors")
         return True
@@ -136,13 +144,51 @@ class Autopilot:
         self.guidance.take_off(altitude_m, self.now_s)
         return True
 
-    def change_speed(self, kind: int, speed_m_s: float) -> bool:
-        """Another speed limit until the mode or a limit changes: 0 and 1 over ground, 2 climb, 3 descent."""
-        field = {0: "speed_m_s", 1: "speed_m_s", 2: "climb_m_s", 3: "descent_m_s"}.get(kind)
-        if field is None or not 0.0 < speed_m_s <= FASTEST_M_S:
+    def start_mission(self) -> bool:
+        """MISSION_START: AUTO, and the throttle up."""
+        if not self.set_mode(Mode.AUTO):
             return False
-        self.airframe.set_limits(replace(self.airframe.limits, **{field: speed_m_s}))
+        self.guidance.steering.throttle_up = True
+        if self.mission.complete:
+            self.mission.begin(restarts=True)
         return True
+
+    def set_home(self, place: GeoPoint | None) -> bool:
+        """Home is at `place` from now on, or (None) here. False without an origin, or for a place far beyond reach."""
+        steering = self.guidance.steering
+        ned_m = steering.place_ned_m if place is None else swap_enu_ned(enu_from_geo(self.origin, place))
+        if not self.boot.stage.origin or not all(abs(x) <= FURTHEST_M for x in ned_m):  # NaN compares false
+            return False
+        steering.home_ned_m = ned_m
+        return True
+
+    def fly_item(self, item: Item, there: bool) -> bool:
+        """The old way to steer GUIDED: a mission item as an order, to its place or (not `there`) to its height."""
+        steering = self.guidance.steering
+        goal = steering.ned_from_item(item)
+        if self.mode is not Mode.GUIDED or not all(abs(x) <= FURTHEST_M for x in goal):
+            return False
+        north_m, east_m, _ = steering.place_ned_m
+        self.guidance.follow(Setpoint(position_ned_m=goal if there else (north_m, east_m, goal[2])), self.now_s)
+        return True
+
+    # What the keeper of plans asks.
+
+    @property
+    def home(self) -> GeoPoint:
+        return geo_from_enu(self.origin, swap_enu_ned(self.guidance.steering.home_ned_m))
+
+    def may_clear(self, store: Store) -> bool:
+        """Not the mission that is being flown."""
+        return store is not self.missions or self.mission.state is not State.ACTIVE
+
+    def flies_item(self, store: Store, seq: int) -> bool:
+        return store is self.missions and seq == self.mission.current
+
+    def plan_changed(self, store: Store) -> None:
+        self.parameters.tell(store.kind.total, len(store.items))
+        if store is self.missions:
+            self.mission.changed()
 
     def hear_gcs(self) -> None:
         """A heartbeat of the ground station that the failsafe counts."""
@@ -151,6 +197,7 @@ class Autopilot:
     def take_sticks(self, sticks: Sticks) -> None:
         """A pilot's hands; without news of them for TIMEOUT_S the sticks are let go."""
         self.guidance.steering.sticks = sticks
+        self.guidance.steering.throttle_up |= sticks.throttle > 0.0
         self._sticks_until_s = self.now_s + TIMEOUT_S
 
     # Time.
@@ -177,6 +224,11 @@ class Autopilot:
         self.failsafes.watch(self)
         for text in self._reminder.due(self):
             self.say(CRITICAL, text)
+
+    @property
+    def _armable(self) -> bool:
+        may_in_auto = int(self.parameters["AUTO_OPTIONS"]) & ARMS_IN_AUTO
+        return MODES[self.mode].armable or (self.mode is Mode.AUTO and bool(may_in_auto))
 
     def say(self, severity: int, text: str) -> None:
         self.texts.append((severity, text))
@@ -217,7 +269,7 @@ class Autopilot:
         if not self.armed or self.guidance.taking_off:
             return
         idle_s = self.now_s - self._idle_since_s + TIME_SLACK_S
-        landing = MODES[self.mode].lands
+        landing = self.guidance.lands
         if self.flying and idle_s >= LANDED_AFTER_S:
             self.flying = False
         delay_s = DISARMED_AFTER_S if landing else self.parameters["DISARM_DELAY"]

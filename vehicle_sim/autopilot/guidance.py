@@ -6,7 +6,9 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from vehicle_sim.autopilot.breadcrumbs import Breadcrumbs
+from vehicle_sim.autopilot.mission import Mission
 from vehicle_sim.autopilot.modes import MODES, Mode
+from vehicle_sim.autopilot.navigation.auto import Auto
 from vehicle_sim.autopilot.navigation.guided import Guided
 from vehicle_sim.autopilot.navigation.landing import Land
 from vehicle_sim.autopilot.navigation.navigator import Navigator, Stop
@@ -14,11 +16,10 @@ from vehicle_sim.autopilot.navigation.pilot import Leveled, Loiter, Manual
 from vehicle_sim.autopilot.navigation.rtl import ReturnHome
 from vehicle_sim.autopilot.navigation.smart_rtl import Retrace
 from vehicle_sim.autopilot.navigation.takeoff import Takeoff
-from vehicle_sim.autopilot.parameters import Parameters
 from vehicle_sim.autopilot.setpoints import Setpoint
-from vehicle_sim.autopilot.severity import WARNING
+from vehicle_sim.autopilot.severity import CRITICAL, WARNING
 from vehicle_sim.autopilot.steering import Steering
-from vehicle_sim.flight import Airframe, Demand
+from vehicle_sim.flight import Demand
 
 
 class Guidance:
@@ -29,16 +30,18 @@ class Guidance:
         breadcrumbs: the way back of SMART_RTL.
     """
 
-    def __init__(self, *, airframe: Airframe, parameters: Parameters, say: Callable[[int, str], None]) -> None:
-        self.steering = Steering(airframe=airframe, parameters=parameters, say=say)
-        self.limits = airframe.limits
+    def __init__(self, *, steering: Steering, mission: Mission) -> None:
+        self.steering = steering
+        self.limits = steering.airframe.limits
         self.breadcrumbs = Breadcrumbs()
         self.navigator = Navigator(self.steering, 0.0)
+        self._mission = mission
         self._mode = Mode.STABILIZE
         self._takeoff: Takeoff | None = None
         self._begin: dict[Mode, Callable[[Steering, float], Navigator]] = {
             Mode.STABILIZE: Manual,
             Mode.ALT_HOLD: Leveled,
+            Mode.AUTO: lambda steering, now_s: Auto(steering, now_s, mission),
             Mode.GUIDED: Guided,
             Mode.LOITER: Loiter,
             Mode.RTL: ReturnHome,
@@ -48,9 +51,19 @@ class Guidance:
             Mode.SMART_RTL: lambda steering, now_s: Retrace(steering, now_s, self.breadcrumbs),
         }
 
-    def can_enter(self, mode: Mode) -> bool:
-        """Whether the mode has what it needs besides a position: SMART_RTL a trail."""
-        return self.breadcrumbs.active if mode is Mode.SMART_RTL else mode in self._begin
+    def can_enter(self, mode: Mode, *, armed: bool, flying: bool) -> bool:
+        """Whether the mode has what it needs besides a position: SMART_RTL a trail, AUTO a mission."""
+        if mode is Mode.SMART_RTL:
+            return self.breadcrumbs.active
+        if mode is not Mode.AUTO or not armed:
+            return True
+        if len(self._mission.items) < 2:
+            return False
+        restarts = self.steering.parameters["MIS_RESTART"] == 1.0
+        if flying or self._mission.begins_with_takeoff(restarts=restarts):
+            return True
+        self.steering.say(CRITICAL, "Auto: Missing Takeoff Cmd")
+        return False
 
     def enter(self, mode: Mode, now_s: float) -> None:
         """Begin `mode`, which `can_enter`: whatever was flown before is forgotten."""
@@ -60,6 +73,11 @@ class Guidance:
         self._limit()
         self.navigator = self._begin[mode](self.steering, now_s)
 
+    def rest(self, now_s: float) -> None:
+        """Disarmed: what was flown is forgotten. A mission begins again, unless it was complete: as ArduCopter does."""
+        if not (isinstance(self.navigator, Auto) and self._mission.complete):
+            self.enter(self._mode, now_s)
+
     def retune(self) -> None:
         """What the parameters allow acts at once, and ends what DO_CHANGE_SPEED asked for."""
         self.limits = self.steering.parameters.limits(self.limits)
@@ -68,6 +86,7 @@ class Guidance:
     def take_off(self, altitude_m: float, now_s: float) -> None:
         """Climb to `altitude_m` above home, straight up."""
         down_m = self.steering.home_ned_m[2] - altitude_m
+        self.steering.throttle_up = True
         self._takeoff = Takeoff(self.steering, down_m=down_m, now_s=now_s)
 
     def follow(self, setpoint: Setpoint, now_s: float) -> None:
@@ -79,13 +98,12 @@ class Guidance:
         """What to fly over the step that begins now; None: motors idle."""
         if self._takeoff is not None:
             return self._take_off(self._takeoff, now_s)
-        if self.steering.airframe.on_ground and not self.navigator.taking_off:
-            return None
-        return self.navigator.demand(now_s)
+        demand = self.navigator.demand(now_s)
+        return demand if self.navigator.taking_off or not self.steering.airframe.on_ground else None
 
     def spooled(self, now_s: float) -> bool:
         """Whether a takeoff is past its spool-up: the autopilot counts as flying from here on."""
-        return self._takeoff.spooled(now_s) if self._takeoff is not None else self.navigator.taking_off
+        return (self._takeoff or self.navigator).spooled(now_s)
 
     def drop_crumb(self) -> None:
         """Leave a mark on the way out, for SMART_RTL."""
@@ -103,6 +121,11 @@ class Guidance:
     @property
     def taking_off(self) -> bool:
         return self._takeoff is not None or self.navigator.taking_off
+
+    @property
+    def lands(self) -> bool:
+        """What is flown ends on the ground, where it disarms soon."""
+        return MODES[self._mode].lands or self.navigator.lands
 
     @property
     def landing(self) -> bool:

@@ -145,6 +145,10 @@ class Parameters:
             self._listeners[name]()
         return True
 
+    def tell(self, name: str, value: float) -> None:
+        """Let a read-only parameter say what it is."""
+        self._values[name] = float(value)
+
     def limits(self, limits: FlightLimits) -> FlightLimits:
         """`limits` with what the parameters say; a value no vehicle can have is brought to the nearest it can."""
         return replace(

@@ -6,10 +6,13 @@ Positions are reached with ArduPilot's square-root controller: proportional near
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import copysign, hypot, sqrt
+from dataclasses import replace
+from math import copysign, dist, hypot, sqrt
 
-from comms.frames import Vec3
+from comms.frames import GeoPoint, Vec3
 from vehicle_sim.autopilot.parameters import Parameters
+from vehicle_sim.autopilot.plans.item import Item
+from vehicle_sim.autopilot.plans.place import ned_from_item
 from vehicle_sim.autopilot.sticks import NO_RADIO, Sticks
 from vehicle_sim.flight import Airframe, Demand, wrap_pi
 
@@ -19,6 +22,7 @@ CLIMB_GAIN_1_S = 1.0
 CLIMB_BRAKING_M_S2 = 0.52  # recorded: v^2 over twice the way left at the end of a takeoff
 YAW_GAIN_1_S = 2.0
 YAW_RATE_MAX_RAD_S = 1.05
+FASTEST_M_S = 100.0
 TIME_SLACK_S = 1e-6  # a clock that counts tenths is never exact
 
 
@@ -26,14 +30,19 @@ class Steering:
     """One vehicle's moves. Places are north-east-down meters in its own frame; demands are for its airframe.
 
     Attributes:
-        home_ned_m: where RTL goes; moves with DO_SET_HOME. sticks: what a pilot holds.
+        origin: where its frame starts. home_ned_m: where RTL goes; moves with DO_SET_HOME. sticks: what a pilot holds.
+        throttle_up: an AUTO takeoff may lift off: somebody said so since it was armed.
         say: a text (severity, words) for the ground.
     """
 
-    def __init__(self, *, airframe: Airframe, parameters: Parameters, say: Callable[[int, str], None]) -> None:
+    def __init__(
+        self, *, airframe: Airframe, parameters: Parameters, origin: GeoPoint, say: Callable[[int, str], None]
+    ) -> None:
         self.airframe = airframe
         self.parameters = parameters
         self.say = say
+        self.origin = origin
+        self.throttle_up = False
         self.home_ned_m: Vec3 = (0.0, 0.0, 0.0)
         self.sticks: Sticks = NO_RADIO
 
@@ -51,13 +60,40 @@ class Steering:
         """Over ground."""
         return hypot(place_ned_m[0] - self.airframe.north_m, place_ned_m[1] - self.airframe.east_m)
 
-    def towards(self, goal_ned_m: Vec3, *, speed_m_s: float = 0.0, yaw_rate_rad_s: float = 0.0) -> Demand:
-        """Straight to a place, at most at `speed_m_s` over ground (0: the speed limit)."""
+    def away_m(self, place_ned_m: Vec3) -> float:
+        """Straight through the air."""
+        return dist(place_ned_m, self.place_ned_m)
+
+    def stopping_ned_m(self) -> Vec3:
+        """Where it would come to rest if it braked now."""
+        frame = self.airframe
+        speed_m_s = hypot(frame.north_m_s, frame.east_m_s)
+        brake_s = speed_m_s / (2.0 * APPROACH_BRAKING * frame.limits.acceleration_m_s2)
+        return frame.north_m + frame.north_m_s * brake_s, frame.east_m + frame.east_m_s * brake_s, frame.down_m
+
+    def ned_from_item(self, item: Item, otherwise_ned_m: Vec3 | None = None) -> Vec3:
+        """Where an item of a plan is; what it leaves open is as `otherwise_ned_m`, or as here."""
+        otherwise = self.place_ned_m if otherwise_ned_m is None else otherwise_ned_m
+        return ned_from_item(item, origin=self.origin, home_ned_m=self.home_ned_m, otherwise_ned_m=otherwise)
+
+    def change_speed(self, kind: int, speed_m_s: float) -> bool:
+        """Another speed limit until the mode or a limit changes: 0 and 1 over ground, 2 climb, 3 descent."""
+        field = {0: "speed_m_s", 1: "speed_m_s", 2: "climb_m_s", 3: "descent_m_s"}.get(kind)
+        if field is None or not 0.0 < speed_m_s <= FASTEST_M_S:
+            return False
+        self.airframe.set_limits(replace(self.airframe.limits, **{field: speed_m_s}))
+        return True
+
+    def towards(
+        self, goal_ned_m: Vec3, *, speed_m_s: float = 0.0, through_m_s: float = 0.0, yaw_rate_rad_s: float = 0.0
+    ) -> Demand:
+        """Straight to a place, at most at `speed_m_s` over ground (0: the speed limit), there at `through_m_s`."""
         frame = self.airframe
         north, east = goal_ned_m[0] - frame.north_m, goal_ned_m[1] - frame.east_m
         distance_m = hypot(north, east)
         braking_m_s2 = APPROACH_BRAKING * frame.limits.acceleration_m_s2
         speed = approach_m_s(distance_m, gain_1_s=APPROACH_GAIN_1_S, braking_m_s2=braking_m_s2)
+        speed = max(speed, through_m_s)
         if speed_m_s > 0.0:
             speed = min(speed, speed_m_s)
         share = speed / distance_m if distance_m > 1e-9 else 0.0

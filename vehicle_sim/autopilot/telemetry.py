@@ -14,7 +14,7 @@ from pymavlink.dialects.v20 import ardupilotmega as dialect
 from comms.frames import GeoPoint, geo_from_enu
 from vehicle_sim.autopilot.arming import complaints
 from vehicle_sim.autopilot.core import Autopilot
-from vehicle_sim.autopilot.modes import MODES
+from vehicle_sim.autopilot.modes import MODES, Mode
 
 Builder = Callable[[Autopilot], Any]
 
@@ -89,7 +89,8 @@ def global_position_int(pilot: Autopilot) -> Any:
     if pilot.boot.stage.gps_fix > 1:
         latitude, longitude, altitude_mm = _wire_place(place(pilot))
     return dialect.MAVLink_global_position_int_message(
-        boot_ms(pilot), latitude, longitude, altitude_mm, _i32(-1000.0 * frame.down_m), _i16(100.0 * frame.north_m_s),
+        boot_ms(pilot), latitude, longitude, altitude_mm, _i32(1000.0 * pilot.guidance.steering.height_m),
+        _i16(100.0 * frame.north_m_s),
         _i16(100.0 * frame.east_m_s), _i16(100.0 * frame.down_m_s), round(100.0 * heading_deg(pilot)) % 36000,
     )  # fmt: skip
 
@@ -149,7 +150,7 @@ def vfr_hud(pilot: Autopilot) -> Any:
     throttle = 34.0 * pilot.charge.current_a / pilot.charge.battery.hover_current_a  # recorded: 34 % hovering
     return dialect.MAVLink_vfr_hud_message(
         air_m_s, ground_m_s, int(heading_deg(pilot)) % 360, _u16(min(100.0, throttle)),
-        pilot.home.altitude_m - frame.down_m, -frame.down_m_s,
+        pilot.origin.altitude_m - frame.down_m, -frame.down_m_s,
     )  # fmt: skip
 
 
@@ -164,7 +165,7 @@ def home_position(pilot: Autopilot) -> Any:
 def gps_global_origin(pilot: Autopilot) -> Any:
     if not pilot.boot.stage.origin:
         return None
-    return dialect.MAVLink_gps_global_origin_message(*_wire_place(pilot.home), boot_ms(pilot) * 1000)
+    return dialect.MAVLink_gps_global_origin_message(*_wire_place(pilot.origin), boot_ms(pilot) * 1000)
 
 
 def autopilot_version(pilot: Autopilot) -> Any:
@@ -185,6 +186,15 @@ def position_target_local_ned(pilot: Autopilot) -> Any:
     )  # fmt: skip
 
 
+def mission_current(pilot: Autopilot) -> Any:
+    """The item that is flown; `total` counts without home."""
+    mission = pilot.mission
+    flies = int(pilot.mode is Mode.AUTO)
+    return dialect.MAVLink_mission_current_message(
+        mission.current, max(0, len(mission.items) - 1), int(mission.state), flies
+    )
+
+
 BUILDERS: dict[int, Builder] = {
     0: heartbeat,
     1: sys_status,
@@ -195,6 +205,7 @@ BUILDERS: dict[int, Builder] = {
     33: global_position_int,
     49: gps_global_origin,
     74: vfr_hud,
+    42: mission_current,
     85: position_target_local_ned,
     147: battery_status,
     148: autopilot_version,
@@ -211,7 +222,7 @@ def boot_ms(pilot: Autopilot) -> int:
 
 def place(pilot: Autopilot) -> GeoPoint:
     frame = pilot.airframe
-    return geo_from_enu(pilot.home, (frame.east_m, frame.north_m, -frame.down_m))
+    return geo_from_enu(pilot.origin, (frame.east_m, frame.north_m, -frame.down_m))
 
 
 def heading_deg(pilot: Autopilot) -> float:

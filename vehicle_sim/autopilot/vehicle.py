@@ -14,13 +14,14 @@ from vehicle_sim.autopilot import parameter_protocol
 from vehicle_sim.autopilot.channel import Channel
 from vehicle_sim.autopilot.commands import Request, run, set_mode
 from vehicle_sim.autopilot.core import Autopilot
+from vehicle_sim.autopilot.plans.desk import ROUTES, Desk
 from vehicle_sim.autopilot.setpoints import global_setpoint, local_setpoint
 from vehicle_sim.autopilot.sticks import Sticks, manual, overridden
 from vehicle_sim.autopilot.streams import ALL_GROUPS, GROUPS, Streams
 from vehicle_sim.autopilot.telemetry import BUILDERS
 from vehicle_sim.vehicle import VehicleConfig, VehicleTruth
 
-HEARTBEAT_ID, HOME_ID, ORIGIN_ID = 0, 242, 49
+HEARTBEAT_ID, MISSION_CURRENT_ID, HOME_ID, ORIGIN_ID = 0, 42, 242, 49
 SET_MODE_ID = 11
 TEXT_BYTES = 50
 
@@ -55,6 +56,8 @@ class SimulatedVehicle:
             seed=seed,
             started_at_s=started_at_s,
         )
+        pilot = self.autopilot
+        self.desk = Desk((pilot.missions, pilot.fences, pilot.rallies), pilot, go=pilot.fly_item)
         self.channels: list[Channel] = []
         self._here = self.open_channel()  # where the message came from that is being handled; the first otherwise
         self._handlers: dict[int, Callable[[Any], None]] = {
@@ -66,11 +69,13 @@ class SimulatedVehicle:
             dialect.MAVLINK_MSG_ID_REQUEST_DATA_STREAM: self._on_data_stream,
             dialect.MAVLINK_MSG_ID_COMMAND_INT: self._on_command_int,
             dialect.MAVLINK_MSG_ID_COMMAND_LONG: self._on_command_long,
+            dialect.MAVLINK_MSG_ID_MISSION_SET_CURRENT: self._on_mission_set_current,
             dialect.MAVLINK_MSG_ID_RC_CHANNELS_OVERRIDE: self._on_rc_override,
             dialect.MAVLINK_MSG_ID_MANUAL_CONTROL: self._on_manual_control,
             dialect.MAVLINK_MSG_ID_SET_POSITION_TARGET_LOCAL_NED: self._on_local_target,
             dialect.MAVLINK_MSG_ID_SET_POSITION_TARGET_GLOBAL_INT: self._on_global_target,
         }
+        self._handlers |= dict.fromkeys(ROUTES, self._on_plan)
 
     def tick(self, now_s: float, wire_in: bytes = b"") -> bytes:
         """Take `wire_in` at the time of the last tick, live until `now_s`, and return what it said meanwhile.
@@ -85,6 +90,7 @@ class SimulatedVehicle:
                 self._receive(message)
         self._here = first
         self.autopilot.advance(now_s)
+        self.desk.watch(self.autopilot.now_s)
         self._speak()
         for channel in self.channels:
             for message_id in channel.streams.due(self.autopilot.now_s):
@@ -149,6 +155,8 @@ class SimulatedVehicle:
         if pilot.announce:
             pilot.announce = False
             news.append(BUILDERS[HEARTBEAT_ID](pilot))
+        news += [dialect.MAVLink_mission_item_reached_message(index) for index in pilot.mission.reached]
+        pilot.mission.reached.clear()
         for message in news:
             for channel in self.channels:
                 channel.endpoint.send(message)
@@ -192,6 +200,13 @@ class SimulatedVehicle:
     def _on_global_target(self, message: Any) -> None:
         setpoint = global_setpoint(message, home=self.autopilot.home)
         self.autopilot.guidance.follow(setpoint, self.autopilot.now_s)
+
+    def _on_plan(self, message: Any) -> None:
+        self.desk.handle(message, self.endpoint.send, self.autopilot.now_s)
+
+    def _on_mission_set_current(self, message: Any) -> None:
+        if self.autopilot.mission.select(message.seq):
+            self.endpoint.send(BUILDERS[MISSION_CURRENT_ID](self.autopilot))
 
     def _on_rc_override(self, message: Any) -> None:
         self._on_sticks(message, overridden)

@@ -12,10 +12,12 @@ class Navigator:
 
     Attributes:
         setpoint: the target that telemetry echoes; STOP where there is none.
-        landing: it is on its way down to the ground. taking_off: it lifts off, or is about to.
+        landing: it is on its way down to the ground. lands: once there it disarms soon.
+        taking_off: it lifts off, or is about to.
     """
 
     landing = False
+    lands = False
     taking_off = False
 
     def __init__(self, steering: Steering, now_s: float) -> None:
@@ -23,8 +25,12 @@ class Navigator:
         self.setpoint: Setpoint = STOP
 
     def demand(self, now_s: float) -> Demand | None:
-        """What to fly over the step that begins at `now_s`, in the air or taking off; None: no thrust."""
+        """What to fly over the step that begins at `now_s`; None: no thrust. On the ground it counts if taking off."""
         return None
+
+    def spooled(self, now_s: float) -> bool:
+        """Whether a takeoff is past its spool-up: the autopilot counts as flying from here on."""
+        return self.taking_off
 
     def leave(self, now_s: float) -> None:
         """The mode ends."""

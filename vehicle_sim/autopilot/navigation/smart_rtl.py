@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from math import dist
-
 from comms.frames import Vec3
 from vehicle_sim.autopilot.breadcrumbs import Breadcrumbs
 from vehicle_sim.autopilot.navigation.navigator import Navigator
@@ -36,7 +34,7 @@ class Retrace(Navigator):
             self._next_ned_m = self._breadcrumbs.pick_up()
         if self._next_ned_m is not None:
             return steering.towards(self._next_ned_m)
-        self._descending = self._descending or dist(steering.place_ned_m, self._above_home_ned_m) < AT_HOME_M
+        self._descending = self._descending or steering.away_m(self._above_home_ned_m) < AT_HOME_M
         if self._descending:
             return descend(steering, self._above_home_ned_m)
         return steering.towards(self._above_home_ned_m)
@@ -48,4 +46,4 @@ class Retrace(Navigator):
             self._next_ned_m = None
 
     def _reached(self, place_ned_m: Vec3) -> bool:
-        return dist(self.steering.place_ned_m, place_ned_m) < self.steering.parameters["WPNAV_RADIUS"] / 100.0
+        return self.steering.away_m(place_ned_m) < self.steering.parameters["WPNAV_RADIUS"] / 100.0
