@@ -16,6 +16,7 @@ from typing import Any
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
 from comms.framing import SIGNED_FLAG, START, frame_bytes
+from comms.signing import Signing
 
 # pymavlink reads this switch from the environment, where any text, "0" too, turns the checksum off.
 dialect.MAVLINK_IGNORE_CRC = False
@@ -32,20 +33,24 @@ Message = Any  # a pymavlink message object; its fields depend on its type
 class Endpoint:
     """The bytes side of one MAVLink party (one vehicle or one ground-side client) on one link.
 
+    With `signing` it signs what it sends, and hears only what is signed with the same key.
+
     Attributes:
         sent, received: frames packed and frames accepted so far.
         bad: rejected stretches of input (bad checksum, unknown message, rubbish between frames, MAVLink 1).
         dropped: frames that were too many: of one source in one call, or to send; input that was cut off counts as one.
     """
 
-    def __init__(self, *, system_id: int, component_id: int = 1) -> None:
+    def __init__(self, *, system_id: int, component_id: int = 1, signing: Signing | None = None) -> None:
         if not 1 <= system_id <= 255:
             raise ValueError(f"a MAVLink system id is 1 to 255, not {system_id}")
         self._codec = dialect.MAVLink(None, srcSystem=system_id, srcComponent=component_id)
+        self._packer = self._codec if signing is None else _signing_codec(system_id, component_id, signing)
         self._inbound = bytearray()
         self._outbound: list[bytes] = []
         self.system_id = system_id
         self.component_id = component_id
+        self.signing = signing
         self.sent = 0
         self.received = 0
         self.bad = 0
@@ -58,7 +63,9 @@ class Endpoint:
         What does not fit into BYTES_OUT is dropped. Heartbeats have some room of their own: without them a busy party
         would look lost.
         """
-        codec = self._codec
+        codec = self._packer
+        if self.signing is not None:
+            codec.signing.timestamp = self.signing.next_stamp()
         frame = message.pack(codec)
         room = BYTES_OF_A_SOURCE if message.get_msgId() == dialect.MAVLINK_MSG_ID_HEARTBEAT else BYTES_OUT
         if self._waiting_bytes + len(frame) > room:
@@ -98,13 +105,15 @@ class Endpoint:
             size = frame_bytes(buffer, start)
             if size is None or end - start < size:
                 break
-            message = self._decode(buffer[start : start + size])
+            frame = buffer[start : start + size]
+            message = self._decode(frame)
             if message is None:
                 self.bad += 1
                 position = start + 1  # that start byte was not one: look again right behind it
-            else:
+                continue
+            position = start + size
+            if self.signing is None or self.signing.accepts(frame):
                 messages.append(message)
-                position = start + size
         del buffer[:position]
         if position > BYTES_OF_A_SOURCE:
             messages = self._fair(messages)
@@ -132,3 +141,12 @@ class Endpoint:
             return None
         # pymavlink returns ids it does not know without having checked their checksum.
         return None if message.get_msgId() < 0 else message
+
+
+def _signing_codec(system_id: int, component_id: int, signing: Signing) -> Any:
+    """A codec that signs what it packs. It must not decode: its own check of signatures can be locked out."""
+    codec = dialect.MAVLink(None, srcSystem=system_id, srcComponent=component_id)
+    codec.signing.secret_key = signing.key
+    codec.signing.link_id = signing.link_id
+    codec.signing.sign_outgoing = True
+    return codec

@@ -22,7 +22,7 @@ from missions.overrides import Override
 from missions.problems import InputError
 from missions.sim.options import EXAMPLES as SIM_EXAMPLES
 from missions.sim.options import add_options as add_sim_options
-from missions.sim.options import link, sim_options
+from missions.sim.options import link, signing_key, sim_options
 
 if TYPE_CHECKING:
     from missions.study.shards import Shard
@@ -55,7 +55,12 @@ def launch(options: argparse.Namespace) -> int:
 
     speed = speed_of(mission, options.speed)
     settings = LaunchOptions(
-        speed=speed, record=options.record, report=options.report, view=options.view, gcs=tuple(options.gcs)
+        speed=speed,
+        record=options.record,
+        report=options.report,
+        view=options.view,
+        gcs=tuple(options.gcs),
+        gcs_key=options.gcs_signing_key,
     )
     return fly(mission, options=settings)
 
@@ -248,6 +253,12 @@ def _parser() -> argparse.ArgumentParser:
         default=[],
         metavar="URL",
         help="show the whole swarm to ground stations there, such as udpout:127.0.0.1:14550; may be repeated",
+    )
+    flying.add_argument(
+        "--gcs-signing-key",
+        type=signing_key,
+        metavar="FILE",
+        help="sign these links, with the key or passphrase in FILE",
     )
     flying.add_argument("--view", action="store_true", help="open a viewer and watch")
 

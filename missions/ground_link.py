@@ -15,6 +15,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 
 from comms.mavlink import Endpoint
+from comms.signing import Signing
 from comms.transport import Transport, TransportError, transport_of
 from missions.observation import Observation
 from missions.problems import InputError
@@ -27,7 +28,8 @@ _READER_ID = 255  # it never speaks: any id will do
 class GroundLink:
     """Channels of several vehicles on one open transport. An observer: it speaks and listens between ticks.
 
-    `wall_clock` is what peers' silence and back-offs are counted on, however fast the mission goes.
+    With a `key` all of it is signed, and a vehicle hears only what is signed with it. `wall_clock` is what peers'
+    silence and back-offs are counted on, however fast the mission goes.
 
     Attributes:
         url: where ground stations find it.
@@ -38,12 +40,15 @@ class GroundLink:
         transport: Transport,
         vehicles: Sequence[SimulatedVehicle],
         *,
+        key: bytes | None = None,
         wall_clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._transport = transport
         self._wall_clock = wall_clock
         self._reader = Endpoint(system_id=_READER_ID)
-        self._channels = {vehicle.autopilot.system_id: vehicle.open_channel() for vehicle in vehicles}
+        self._channels = {
+            vehicle.autopilot.system_id: vehicle.open_channel(signing=_signing(key)) for vehicle in vehicles
+        }
         self.url = transport.url
 
     def __str__(self) -> str:
@@ -53,9 +58,10 @@ class GroundLink:
         dropped = self._reader.dropped + sum(end.dropped for end in channels)
         counts = self._transport.counts
         lost = counts.dropped_in + counts.dropped_out
+        refused = sum(end.signing.refused for end in channels if end.signing is not None)
         return (
-            f"{self.url}: {self._reader.received} frames in, {sent} out, {self._reader.bad} bad, {dropped} dropped; "
-            f"{lost} bytes lost in transport"
+            f"{self.url}: {self._reader.received} frames in, {sent} out, {self._reader.bad} bad, {dropped} dropped, "
+            f"{refused} refused for their signature; {lost} bytes lost in transport"
         )
 
     def observe(self, observation: Observation) -> None:
@@ -84,8 +90,14 @@ class GroundLink:
         return [] if channel is None else [channel]
 
 
+def _signing(key: bytes | None) -> Signing | None:
+    return None if key is None else Signing(key, unix_time=time.time)
+
+
 @contextmanager
-def open_ground_link(url: str, vehicles: Sequence[SimulatedVehicle], *, option: str) -> Iterator[GroundLink]:
+def open_ground_link(
+    url: str, vehicles: Sequence[SimulatedVehicle], *, option: str, key: bytes | None = None
+) -> Iterator[GroundLink]:
     """A ground link on the transport that `url` names, which closes with it. `option` is how the user asked for it.
 
     Raises:
@@ -96,4 +108,4 @@ def open_ground_link(url: str, vehicles: Sequence[SimulatedVehicle], *, option: 
     except TransportError as error:
         raise InputError(f"{option}: {error}") from error
     with transport:
-        yield GroundLink(transport, vehicles)
+        yield GroundLink(transport, vehicles, key=key)

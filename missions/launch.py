@@ -88,7 +88,10 @@ def _fly(flight: Flight, metrics: Metrics, request: StopRequest, console: Consol
     mission = flight.mission
     kept = True
     with ExitStack() as stack:
-        links = [stack.enter_context(open_ground_link(url, _simulated(flight), option="--gcs")) for url in options.gcs]
+        links = [
+            stack.enter_context(open_ground_link(url, _simulated(flight), option="--gcs", key=options.gcs_key))
+            for url in options.gcs
+        ]
         observers: list[Observer] = [*links, metrics]
         if mission.in_real_time:
             observers.append(EventLog(console))

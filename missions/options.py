@@ -19,7 +19,7 @@ class LaunchOptions:
         record: the rerun recording to write, if any.
         report: the JSON report to write, if any; `-` is standard output.
         view: whether to open a viewer.
-        gcs: URLs of ports for ground stations, the whole swarm on each.
+        gcs: URLs of ports for ground stations, the whole swarm on each. gcs_key: what they sign with, if they must.
     """
 
     speed: float = inf
@@ -27,6 +27,7 @@ class LaunchOptions:
     report: str | None = None
     view: bool = False
     gcs: tuple[str, ...] = ()
+    gcs_key: bytes | None = None
 
 
 def speed_of(mission: Mission, asked: float | None) -> float:

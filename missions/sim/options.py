@@ -5,8 +5,10 @@ from __future__ import annotations
 import argparse
 from dataclasses import dataclass
 from math import isfinite
+from pathlib import Path
 
 from comms.frames import GeoPoint
+from comms.signing import KeyFileError, read_key
 from comms.transport import FORMS, transport_of
 from missions.problems import any_of
 
@@ -33,11 +35,13 @@ class SimOptions:
     """One vehicle and its links.
 
     Attributes:
-        links: URLs of `comms.transport`. heading_deg: clockwise from north. speed: times real time.
+        links: URLs of `comms.transport`. key: what all of them are signed with, if they are.
+        heading_deg: clockwise from north. speed: times real time.
         boot_s: from power-on to armable. parameters: (name, value) to set at power-on.
     """
 
     links: tuple[str, ...]
+    key: bytes | None = None
     flavour: str
     system_id: int
     home: GeoPoint
@@ -53,6 +57,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("--port", type=_port, metavar="P", help=f"listen on tcpin:127.0.0.1:P ({SITL_PORT} unless a --link is given)")
     add("--link", type=link, action="append", default=[], metavar="URL", help=f"{FORMS}; may be repeated")
+    add("--signing-key", type=signing_key, metavar="FILE", help="sign, with the key or passphrase in FILE (mode 0600)")
     add("--flavour", type=_flavour, default=FLAVOURS[0], metavar="NAME", help=f"{any_of(FLAVOURS)}")
     add(
         "--sysid",
@@ -93,6 +98,7 @@ def sim_options(given: argparse.Namespace) -> SimOptions:
     port = SITL_PORT if given.port is None and not given.link else given.port
     return SimOptions(
         links=(*(() if port is None else (f"tcpin:127.0.0.1:{port}",)), *given.link),
+        key=given.signing_key,
         flavour=given.flavour,
         system_id=given.sysid,
         home=home,
@@ -109,6 +115,14 @@ def link(text: str) -> str:
     try:
         return transport_of(text).url
     except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+
+
+def signing_key(text: str) -> bytes:
+    """The key in a file."""
+    try:
+        return read_key(Path(text))
+    except KeyFileError as error:
         raise argparse.ArgumentTypeError(str(error)) from None
 
 

@@ -33,7 +33,10 @@ def simulate(options: SimOptions) -> int:
     with ExitStack() as stack:
         before = signal.signal(signal.SIGTERM, signal.default_int_handler)
         stack.callback(signal.signal, signal.SIGTERM, before)
-        links = [stack.enter_context(open_ground_link(url, [vehicle], option="--link")) for url in options.links]
+        links = [
+            stack.enter_context(open_ground_link(url, [vehicle], option="--link", key=options.key))
+            for url in options.links
+        ]
         _tell(f"{options.flavour} vehicle {options.system_id} on {', '.join(link.url for link in links)}")
         with suppress(KeyboardInterrupt):
             _run(vehicle, links, speed=options.speed)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import time
 from collections import Counter
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -13,6 +15,7 @@ from comms.clock import Lockstep
 from comms.frames import GeoPoint
 from comms.mavlink import Endpoint
 from comms.session import open_local_bus
+from comms.signing import Signing
 from comms.transport import Transport, TransportError, transport_of
 from missions.cli import BAD_INPUT, main
 from missions.flight import Flight
@@ -182,3 +185,33 @@ def test_a_wrong_url_is_bad_input(capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_nobody_watches_unless_asked() -> None:
     assert LaunchOptions().gcs == ()
+
+
+def test_on_a_signed_port_only_who_has_the_key_is_heard() -> None:
+    key = bytes(range(32))
+    vehicle = SimulatedVehicle(config=VehicleConfig(), system_id=1, home=HOME)
+    with (
+        transport_of("udpin:127.0.0.1:0") as transport,
+        transport_of(transport.url.replace("udpin", "udpout")) as ground,
+    ):
+        link = GroundLink(transport, [vehicle], key=key)
+        stranger = Watched(link, [vehicle], ground)
+        stranger.send(command(1, 176, 1, 4))
+        until(lambda: (stranger.tick(), ", 1 refused" in str(link))[-1])
+        assert vehicle.autopilot.mode.name == "STABILIZE"
+        friend = Watched(link, [vehicle], ground)
+        friend.ours = Endpoint(system_id=255, component_id=190, signing=Signing(key, unix_time=time.time))
+        friend.now_s = stranger.now_s
+        friend.send(command(1, 176, 1, 4))
+        (ack,) = friend.wait_for("COMMAND_ACK", 1)
+        assert ack.result == 0
+        assert vehicle.autopilot.mode.name == "GUIDED"
+
+
+def test_a_key_that_others_may_read_is_bad_input(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "key"
+    path.write_text("swordfish\n")
+    path.chmod(0o644)
+    for arguments in (["sim", "--signing-key", str(path)], ["launch", "narrow", "--gcs-signing-key", str(path)]):
+        assert main(arguments) == BAD_INPUT
+        assert "allowed: mode 0600" in capsys.readouterr().err

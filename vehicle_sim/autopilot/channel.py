@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from comms.mavlink import BYTES_IN, Endpoint
+from comms.signing import Signing
 from vehicle_sim.autopilot.streams import Streams
 
 
@@ -18,8 +19,8 @@ class Channel:
         endpoint: with sequence numbers of its own. streams: what the other side asked for.
     """
 
-    def __init__(self, *, system_id: int, started_at_s: float) -> None:
-        self.endpoint = Endpoint(system_id=system_id)
+    def __init__(self, *, system_id: int, started_at_s: float, signing: Signing | None = None) -> None:
+        self.endpoint = Endpoint(system_id=system_id, signing=signing)
         self.streams = Streams(started_at_s=started_at_s)
         self._heard = b""
 

@@ -10,6 +10,7 @@ from pymavlink.dialects.v20 import ardupilotmega as dialect
 
 from comms.frames import GeoPoint
 from comms.mavlink import Endpoint
+from comms.signing import Signing
 from vehicle_sim.autopilot import parameter_protocol
 from vehicle_sim.autopilot.channel import Channel
 from vehicle_sim.autopilot.commands import Request, run, set_mode
@@ -99,9 +100,9 @@ class SimulatedVehicle:
                     channel.endpoint.send(report)
         return first.take()
 
-    def open_channel(self) -> Channel:
-        """One more link to this vehicle, beside those it has."""
-        channel = Channel(system_id=self.autopilot.system_id, started_at_s=self.autopilot.now_s)
+    def open_channel(self, *, signing: Signing | None = None) -> Channel:
+        """One more link to this vehicle, beside those it has; with `signing` it hears only whom it can believe."""
+        channel = Channel(system_id=self.autopilot.system_id, started_at_s=self.autopilot.now_s, signing=signing)
         self.channels.append(channel)
         return channel
 
