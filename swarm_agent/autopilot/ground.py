@@ -9,7 +9,7 @@ from swarm_agent.autopilot.ending import Descent, Done, Failed
 from swarm_agent.autopilot.errand import Errand, Progress
 from swarm_agent.autopilot.flavors import FLAVORS, known_flavors
 from swarm_agent.autopilot.intent import Intent, Land, Return
-from swarm_agent.autopilot.preflight import Checklist
+from swarm_agent.autopilot.preflight import Checklist, layer_misfit
 from swarm_agent.autopilot.requests import arm, take_off
 from swarm_agent.autopilot.stage import OnTheWay, Stage
 from swarm_agent.autopilot.state import Phase
@@ -99,7 +99,9 @@ class Arm(OnTheWay):
         if progress is Progress.GIVEN_UP:
             return Failed(self._errand.reason)
         if progress is Progress.DONE:
-            return Takeoff(since_s=self._since_s, ground_up_m=telemetry.position_m[2])
+            ground_up_m = telemetry.position_m[2]
+            misfit = layer_misfit(config, ground_up_m=ground_up_m)  # its origin may have moved since the checklist
+            return Failed(misfit) if misfit else Takeoff(since_s=self._since_s, ground_up_m=ground_up_m)
         return self
 
 

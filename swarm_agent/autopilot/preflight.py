@@ -7,6 +7,7 @@ from math import hypot
 
 from comms.status import Level
 from swarm_agent.autopilot.cockpit import Cockpit
+from swarm_agent.autopilot.config import PilotConfig
 from swarm_agent.autopilot.errand import Errand, Progress
 from swarm_agent.autopilot.requests import Request, WriteAltitude, set_mode, tell_origin
 from swarm_agent.autopilot.telemetry import Telemetry
@@ -105,13 +106,8 @@ class Checklist:
     def _layer_above_ground(self, cockpit: Cockpit) -> float:
         position_m, config = cockpit.telemetry.position_m, cockpit.config
         ground_up_m = position_m[2] if position_m is not None else 0.0
-        above_m = config.altitude_m - ground_up_m
-        if not LOWEST_LAYER_M <= above_m <= HIGHEST_LAYER_M:
-            self.failure = (
-                f"the layer at {config.altitude_m:g} m is {above_m:.1f} m above this vehicle's ground: "
-                f"does the mission's home altitude ({config.home.altitude_m:g} m) fit?"
-            )
-        return above_m
+        self.failure = layer_misfit(config, ground_up_m=ground_up_m)
+        return config.altitude_m - ground_up_m
 
     def checks(self, cockpit: Cockpit, now_s: float) -> str:
         """The vehicle's own pre-arm checks pass; its reasons come as texts."""
@@ -125,6 +121,17 @@ class Checklist:
         limit_s = cockpit.config.refusal_limit_s
         self._run(cockpit, now_s, set_mode(mode), limit_s=limit_s, done=lambda _: cockpit.in_mode(mode))
         return f"switching to {mode.name}"
+
+
+def layer_misfit(config: PilotConfig, *, ground_up_m: float) -> str:
+    """Why no vehicle that stands at `ground_up_m` can be meant to climb to the layer; empty if it can."""
+    above_m = config.altitude_m - ground_up_m
+    if LOWEST_LAYER_M <= above_m <= HIGHEST_LAYER_M:
+        return ""
+    return (
+        f"the layer at {config.altitude_m:g} m is {above_m:.1f} m above this vehicle's ground: "
+        f"does the mission's home altitude ({config.home.altitude_m:g} m) fit?"
+    )
 
 
 def _has_place(telemetry: Telemetry) -> bool:

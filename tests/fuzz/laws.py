@@ -71,7 +71,7 @@ def moves_as_far_as_its_speed(tick: Tick) -> None:
     limits = tick.vehicle.autopilot.airframe.limits
     gain_m_s = (GRAVITY_M_S2 + lean_max_m_s2(limits)) * tick.span_s
     if tick.ideal:
-        gain_m_s += hypot(limits.speed_m_s, limits.climb_m_s)
+        gain_m_s += hypot(limits.speed_m_s, max(limits.climb_m_s, limits.descent_m_s))
     moved_m = dist(tick.before.position_ned_m, tick.after.position_ned_m)
     if moved_m > (fastest_m_s + gain_m_s) * tick.span_s + SLACK:
         raise Broken(f"moved {moved_m} m in {tick.span_s} s: {tick.before} -> {tick.after}")

@@ -150,6 +150,14 @@ class TestPreflight:
         flight = Flight(ScriptedCopter(), home=home).until(Phase.FAILED, Prepare())
         assert "does the mission's home altitude (0 m) fit?" in flight.pilot.state.failure
 
+    def test_an_origin_that_moves_while_it_arms_is_no_takeoff(self) -> None:
+        flight = Flight(ScriptedCopter(script={ARM: [SILENCE]})).until(Phase.ARM, Prepare())
+        place = (round(HOME.latitude_deg * 1e7), round(HOME.longitude_deg * 1e7), 2**31 - 1)
+        flight.copter.endpoint.send(dialect.MAVLink_gps_global_origin_message(*place, 0))
+        flight.until(Phase.FAILED, Prepare())
+        assert "above this vehicle's ground" in flight.pilot.state.failure
+        assert not flight.copter.commands(TAKEOFF)
+
     def test_return_on_the_ground_is_done(self) -> None:
         flight = Flight(ScriptedCopter(ready_at_s=1e9)).run(Prepare(), seconds=3.0).until(Phase.DONE, Return())
         assert not flight.copter.commands(ARM)
