@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import resource
 import sys
 import time
 from collections import Counter
@@ -15,6 +16,7 @@ from tests.fuzz.episode import Episode, make_episode
 from tests.fuzz.play import Failure, play, shrink
 
 BATCH = 25  # episodes a process plays before it tells
+MOST_BYTES = 4 << 30  # of memory: what grows without end fails here, and not the whole machine
 
 
 class Tally(NamedTuple):
@@ -33,6 +35,7 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("--episode", type=int, help="play this episode alone, and shrink its failure")
     parser.add_argument("--jobs", type=int, default=1, help="processes (default: %(default)s)")
     arguments = parser.parse_args(argv)
+    resource.setrlimit(resource.RLIMIT_AS, (MOST_BYTES, resource.getrlimit(resource.RLIMIT_AS)[1]))
     if arguments.episode is not None:
         return _one(arguments.seed, arguments.episode)
     return _many(arguments.seed, frames=arguments.frames, jobs=max(1, arguments.jobs))

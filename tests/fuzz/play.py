@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import signal
 import traceback
 from collections import Counter
-from typing import NamedTuple
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any, NamedTuple
 
 from tests.fuzz.episode import Episode, Shot
 from tests.fuzz.subjects import SUBJECTS
+
+LONGEST_SHOT_S = 10.0  # of the wall clock, on a busy machine; usually a tenth of a millisecond
 
 
 class Failure(NamedTuple):
@@ -26,9 +31,10 @@ def play(episode: Episode, states: Counter[str] | None = None) -> Failure | None
     for number, shot in enumerate(episode.shots):
         frames += len(shot.wires)
         try:
-            subject.take(shot)
-            if number == len(episode.shots) - 1:
-                subject.finish()
+            with _patience():
+                subject.take(shot)
+                if number == len(episode.shots) - 1:
+                    subject.finish()
         except Exception as error:  # any exception is a finding
             return Failure(number, frames, _name(error), "".join(traceback.format_exception(error)))
         if states is not None:
@@ -73,7 +79,25 @@ def _without_shots(episode: Episode, start: int, stop: int) -> Episode:
     return episode._replace(shots=episode.shots[:start] + episode.shots[stop:])
 
 
+@contextmanager
+def _patience() -> Iterator[None]:
+    """A shot that does not end is a failure as well."""
+
+    def give_up(number: int, frame: Any) -> None:
+        raise TimeoutError(f"not done with one shot after {LONGEST_SHOT_S:g} s")
+
+    before = signal.signal(signal.SIGALRM, give_up)
+    signal.setitimer(signal.ITIMER_REAL, LONGEST_SHOT_S)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, before)
+
+
 def _name(error: Exception) -> str:
     """The kind of a failure, by which a smaller one counts as the same: its type and the line that raised it."""
+    if isinstance(error, TimeoutError | MemoryError):
+        return type(error).__name__  # the line is where patience or memory happened to end
     last = traceback.extract_tb(error.__traceback__)[-1]
     return f"{type(error).__name__} in {last.name}, line {last.lineno} of {last.filename.rpartition('/')[2]}"

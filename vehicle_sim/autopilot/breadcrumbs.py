@@ -8,6 +8,7 @@ from comms.frames import Vec3
 
 CORNER_SHARE = 0.5  # of SRTL_ACCURACY: how far a place may lie beside the simplified way
 LOOP_SHARE = 0.99  # of SRTL_ACCURACY: how near the way must come to itself to be a loop
+MOST = 500  # places, whatever SRTL_POINTS says: cleaning a trail takes the square of its length
 
 
 class Breadcrumbs:
@@ -29,6 +30,7 @@ class Breadcrumbs:
         """Leave `place_ned_m` behind if it is `apart_m` from the last. False: no room, the trail is given up."""
         if not self.active or _squared(place_ned_m, self._trail[-1]) < apart_m * apart_m:
             return True
+        most = min(most, MOST)
         if len(self._trail) >= most:
             self._trail = cleaned(self._trail, accuracy_m=apart_m)
         if len(self._trail) >= most:
@@ -57,6 +59,7 @@ class Breadcrumbs:
 
 def cleaned(trail: list[Vec3], *, accuracy_m: float) -> list[Vec3]:
     """The trail with its loops cut out, then without the places that lie on the way between others."""
+    accuracy_m = max(0.0, accuracy_m)  # a parameter can be anything
     return simplified(pruned(trail, near_m=LOOP_SHARE * accuracy_m), beside_m=CORNER_SHARE * accuracy_m)
 
 

@@ -26,7 +26,7 @@ from tests.vehicle_sim.autopilot.ground_station import (
     ready,
     velocity,
 )
-from vehicle_sim.autopilot.breadcrumbs import pruned, simplified
+from vehicle_sim.autopilot.breadcrumbs import cleaned, pruned, simplified
 from vehicle_sim.autopilot.modes import MODES, Mode
 
 ACCEPTED, FAILED = 0, 4
@@ -199,5 +199,6 @@ def test_a_pruned_trail_begins_at_home_and_never_comes_back_to_itself(trail: lis
 def test_a_line_becomes_its_ends_and_a_loop_is_cut() -> None:
     line = [(2.0 * k, 0.0, -5.0) for k in range(20)]
     assert simplified(line, beside_m=1.0) == [line[0], line[-1]]
+    assert cleaned(line, accuracy_m=-2.0) == [line[0], line[-1]]  # SRTL_ACCURACY can be anything
     loop = [(0.0, 0.0, 0.0), (10.0, 0.0, 0.0), (10.0, 10.0, 0.0), (0.5, 0.5, 0.0), (-10.0, 0.0, 0.0)]
     assert pruned(loop, near_m=2.0) == [loop[0], loop[-1]]
