@@ -20,6 +20,8 @@ VERTICAL_JERK_M_S3 = 5.0
 DRAG_1_S = 0.26  # deceleration per m/s of airspeed ...
 DRAG_1_M = 0.028  # ... and per (m/s)2
 SPEED_RESERVE = 1.02  # top speed at full tilt, over the speed limit
+TUMBLE_RAD_S = 4.0  # out of control
+TIPPED_RAD = 1.6  # on its side
 WIND_TRIM_S = 2.0  # how fast the integrators learn to lean into the wind
 
 
@@ -42,16 +44,31 @@ class FlightLimits:
 
 
 class Demand(NamedTuple):
-    """What the airframe is asked to do: a velocity (north, east, down; m/s) and a yaw rate (rad/s)."""
+    """What the airframe is asked to do: a velocity (north, east, down; m/s) and a yaw rate (rad/s).
+
+    `level`: stay level instead, and let the wind have the horizontal velocity.
+    """
 
     north_m_s: float = 0.0
     east_m_s: float = 0.0
     down_m_s: float = 0.0
     yaw_rate_rad_s: float = 0.0
+    level: bool = False
 
 
-class Airframe:
-    """One vehicle's motion over flat ground, north-east-down meters from where it started.
+class Motion:
+    """Where a vehicle is and how it moves: north-east-down meters from where it started, meters a second, radians."""
+
+    def __init__(self, *, yaw_rad: float) -> None:
+        self.north_m = self.east_m = self.down_m = 0.0
+        self.north_m_s = self.east_m_s = self.down_m_s = 0.0
+        self.yaw_rad = wrap_pi(yaw_rad)
+        self.yaw_rate_rad_s = 0.0
+        self.on_ground = True
+
+
+class Airframe(Motion):
+    """One vehicle's motion over flat ground.
 
     `step` advances it. Without thrust it sits on the ground or falls. This class answers a demand at once (ideal); the
     multirotor below adds inertia and wind.
@@ -59,20 +76,19 @@ class Airframe:
     Attributes:
         impact_m_s: vertical speed of the touchdown in the last step, or None.
         lean_ne_m_s2: horizontal part of the thrust, from which attitude follows.
+        uncontrolled: a motor is too weak to hold the others' moments: it tumbles and falls, whatever is asked for.
     """
 
     def __init__(self, *, limits: FlightLimits, yaw_rad: float) -> None:
+        super().__init__(yaw_rad=yaw_rad)
         self.limits = limits
         self._lean_max_m_s2 = lean_max_m_s2(limits)
         self._drag_scale = drag_scale(limits)
-        self.north_m = self.east_m = self.down_m = 0.0
-        self.north_m_s = self.east_m_s = self.down_m_s = 0.0
         self.down_m_s2 = 0.0
         self.lean_ne_m_s2 = (0.0, 0.0)
-        self.yaw_rad = wrap_pi(yaw_rad)
-        self.yaw_rate_rad_s = 0.0
-        self.on_ground = True
         self.impact_m_s: float | None = None
+        self.uncontrolled = False
+        self._tumbled_rad = 0.0
 
     def set_limits(self, limits: FlightLimits) -> None:
         """Fly by other limits from now on. The airframe, hence its drag, stays the same."""
@@ -82,6 +98,8 @@ class Airframe:
     def step(self, dt_s: float, demand: Demand | None, air_ne_m_s: tuple[float, float]) -> None:
         """Advance by `dt_s`. `demand` None: no thrust. `air_ne_m_s`: the wind's velocity, north and east."""
         self.impact_m_s = None
+        if self.uncontrolled or self._tumbled_rad:
+            demand = self._tumble(dt_s, demand)
         if self.on_ground and (demand is None or demand.down_m_s >= 0.0):
             self._rest()
             return
@@ -98,10 +116,17 @@ class Airframe:
     @property
     def attitude_rad(self) -> tuple[float, float]:
         """(roll, pitch) that point the thrust where it goes: right lean is positive roll, forward is negative pitch."""
+        if self._tumbled_rad:
+            return wrap_pi(self._tumbled_rad), 0.0
         north, east = self.lean_ne_m_s2
         cosine, sine = cos(self.yaw_rad), sin(self.yaw_rad)
         pitch = -atan((north * cosine + east * sine) / GRAVITY_M_S2)
         return atan((east * cosine - north * sine) * cos(pitch) / GRAVITY_M_S2), pitch
+
+    @property
+    def tumbling(self) -> bool:
+        """Whether it has turned over, in the air or on the ground."""
+        return self._tumbled_rad != 0.0
 
     @property
     def effort(self) -> float:
@@ -112,15 +137,28 @@ class Airframe:
 
     def _within_limits(self, demand: Demand) -> Demand:
         limits = self.limits
-        north, east, down, yaw_rate = demand
+        north, east, down, yaw_rate, _ = demand
         speed = hypot(north, east)
         if speed > limits.speed_m_s:
             north *= limits.speed_m_s / speed
             east *= limits.speed_m_s / speed
-        return Demand(north, east, max(-limits.climb_m_s, min(limits.descent_m_s, down)), yaw_rate)
+        return Demand(north, east, max(-limits.climb_m_s, min(limits.descent_m_s, down)), yaw_rate, demand.level)
+
+    def _tumble(self, dt_s: float, demand: Demand | None) -> Demand | None:
+        """Turn over: in the air on and on, on the ground onto the side. Whole again, it is upright at once."""
+        if not self.uncontrolled:
+            self._tumbled_rad = 0.0
+            return demand
+        if not self.on_ground:
+            self._tumbled_rad += TUMBLE_RAD_S * dt_s
+        elif demand is not None and demand.down_m_s < 0.0:
+            self._tumbled_rad = TIPPED_RAD
+        return None
 
     def _follow(self, dt_s: float, demand: Demand, air_ne_m_s: tuple[float, float]) -> None:
         self.north_m_s, self.east_m_s, self.down_m_s = demand.north_m_s, demand.east_m_s, demand.down_m_s
+        if demand.level:
+            self.north_m_s, self.east_m_s = air_ne_m_s
         self._move(dt_s)
 
     def _fall(self, dt_s: float) -> None:
@@ -139,6 +177,8 @@ class Airframe:
 
     def _touch_down(self) -> None:
         self.impact_m_s = self.down_m_s
+        if self._tumbled_rad:
+            self._tumbled_rad = max(TIPPED_RAD, self._tumbled_rad % pi)
         self.down_m = 0.0
         self.on_ground = True
         self._rest()
@@ -179,6 +219,8 @@ class Multirotor(Airframe):
             VELOCITY_GAIN_1_S * (demand.east_m_s - self.east_m_s),
             self.limits.acceleration_m_s2,
         )
+        if demand.level:
+            north, east = -drag_north_m_s2, -drag_east_m_s2  # no lean: the drag is left alone
         slew_north, slew_east = _shortened(
             north - self._north_m_s2, east - self._east_m_s2, JERK_1_S * self.limits.acceleration_m_s2 * dt_s
         )

@@ -21,12 +21,12 @@ from rich.table import Table
 from comms.frames import GeoPoint
 from comms.mavlink import Endpoint
 from vehicle_sim.autopilot import SimulatedVehicle
-from vehicle_sim.autopilot.telemetry import BUILDERS
 from vehicle_sim.vehicle import VehicleConfig
 from vehicle_sim.wind import Wind
 
 TICK_S = 0.1
 FAST_IDS = (30, 32, 33)  # ATTITUDE, LOCAL_POSITION_NED, GLOBAL_POSITION_INT
+SLOW_IDS = (0, 1, 2, 24, 49, 74, 85, 147, 148, 193, 242, 245)  # health, GPS, battery, estimate, home ...
 READY_TICKS, CLIMB_TICKS = 20, 100
 RACE_AGAINST = 57.0  # vehicle-seconds a core-second of a real SITL
 
@@ -48,7 +48,7 @@ class Fleet:
         self.tick(command(176, 1, 4), command(400, 1), command(22, 0, 0, 0, 0, 0, 0, 10))
         for _ in range(CLIMB_TICKS):
             self.tick()
-        rates = [command(511, number, 1e5 if number in FAST_IDS else 1e6) for number in sorted(BUILDERS)]
+        rates = [command(511, number, 1e5 if number in FAST_IDS else 1e6) for number in (*FAST_IDS, *SLOW_IDS)]
         self.tick(*rates)
         if not all(vehicle.truth.position_ned_m[2] < -5.0 for vehicle in self.vehicles):
             raise RuntimeError("not every vehicle took off")

@@ -17,7 +17,8 @@ from vehicle_sim.autopilot.core import Autopilot
 from vehicle_sim.autopilot.modes import Mode
 from vehicle_sim.autopilot.severity import INFO
 from vehicle_sim.autopilot.streams import Streams
-from vehicle_sim.autopilot.telemetry import BUILDERS, CUSTOM_MODE
+from vehicle_sim.autopilot.telemetry import BUILDERS
+from vehicle_sim.autopilot.telemetry.state import CUSTOM_MODE
 
 FORCE_ARM, FORCE_DISARM = 2989.0, 21196.0
 MISSION_CURRENT_ID = 42

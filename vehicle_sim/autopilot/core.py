@@ -5,12 +5,14 @@ What it has to say is collected in `texts`; `announce` is set when a heartbeat s
 
 from __future__ import annotations
 
-from math import ceil
+from math import ceil, cos, sin
 
 from comms.frames import GeoPoint, enu_from_geo, geo_from_enu, swap_enu_ned
 from vehicle_sim.autopilot.arming import Reminder, complaints
 from vehicle_sim.autopilot.boot import Boot
+from vehicle_sim.autopilot.estimate import Estimate
 from vehicle_sim.autopilot.failsafes import Failsafes
+from vehicle_sim.autopilot.faults import SENSOR_NAMES, battery, motor_share, sensor_faults, wind
 from vehicle_sim.autopilot.guidance import Guidance
 from vehicle_sim.autopilot.mission import Mission, State
 from vehicle_sim.autopilot.modes import MODES, Mode
@@ -22,7 +24,8 @@ from vehicle_sim.autopilot.severity import CRITICAL, INFO, WARNING
 from vehicle_sim.autopilot.steering import TIME_SLACK_S, Steering
 from vehicle_sim.autopilot.sticks import NO_RADIO, TIMEOUT_S, Sticks
 from vehicle_sim.battery import IDLE_SHARE, Charge
-from vehicle_sim.flight import Airframe, Multirotor
+from vehicle_sim.flight import Airframe, Demand, Multirotor
+from vehicle_sim.sensors import Sensors
 from vehicle_sim.vehicle import VehicleConfig
 from vehicle_sim.wind import LocalWind
 
@@ -30,6 +33,7 @@ STEP_S = {"simulated": 0.05, "ideal": 1.0}
 LANDED_AFTER_S = 1.3  # on the ground until the land detector believes it (recorded)
 DISARMED_AFTER_S = 2.1  # on the ground until LAND and RTL disarm (recorded)
 YAW_ALIGNMENT_M = 2.5
+HOVER_THROTTLE = 0.39  # MOT_THST_HOVER: a motor with less than this share of its thrust cannot carry its corner
 HIGHEST_TAKEOFF_M = 10_000.0
 FURTHEST_M = 1e6
 ARMS_IN_AUTO = 1  # a bit of AUTO_OPTIONS
@@ -51,10 +55,15 @@ class Autopilot:
         self.origin = home
         self.system_id = system_id
         self.started_at_s = self.now_s = started_at_s
+        self._seed = seed
         self.wind = LocalWind(config.wind, seed=seed, who=system_id)
         self.parameters = Parameters(
             system_id=system_id, limits=config.limits, battery=config.battery, wind=config.wind
         )
+        self.parameters.on_change(SENSOR_NAMES, self._disturb_sensors)
+        self.parameters.on_change(("SIM_WIND_",), self._change_wind)
+        self.parameters.on_change(("SIM_BATT_",), self._change_battery)
+        self.parameters.on_change(("SIM_ENGINE_",), self._break_motor)
         self.airframe: Airframe
         if config.kind == "ideal":
             self.airframe = Airframe(limits=config.limits, yaw_rad=heading_rad)
@@ -63,11 +72,15 @@ class Autopilot:
                 limits=config.limits, yaw_rad=heading_rad, trimmed_ne_m_s=self.wind.steady_ne_m_s
             )
         self.charge = Charge(config.battery)
+        self.sensors = Sensors(motion=self.airframe, seed=seed, who=system_id)
+        self.estimate = Estimate(
+            airframe=self.airframe, sensors=self.sensors, parameters=self.parameters, now_s=started_at_s
+        )
         self.boot = Boot(boot_s=config.boot_s, field_elevation_m=home.altitude_m)
         self.texts: list[tuple[int, str]] = []
         self.missions, self.fences, self.rallies = (Store(kind) for kind in KINDS)
         self.mission = Mission(self.missions, say=self.say)
-        steering = Steering(airframe=self.airframe, parameters=self.parameters, origin=home, say=self.say)
+        steering = Steering(airframe=self.estimate, parameters=self.parameters, origin=home, say=self.say)
         self.guidance = Guidance(steering=steering, mission=self.mission)
         self.parameters.on_change(LIMIT_NAMES, self.guidance.retune)
         self.mode = Mode.STABILIZE
@@ -82,6 +95,11 @@ class Autopilot:
         self._yaw_aligned = False
         self._sticks_until_s = started_at_s
 
+    @property
+    def has_position(self) -> bool:
+        """Whether it knows its place, and trusts that."""
+        return self.boot.stage.position and self.estimate.has_position and not self.failsafes.ekf.active
+
     # What a ground station asks for. Each returns whether it was done.
 
     def set_mode(self, number: int) -> bool:
@@ -90,7 +108,7 @@ class Autopilot:
             self.say(WARNING, f"No such mode {number}")
             return False
         mode = Mode(number)
-        if self.armed and MODES[mode].needs_position and not self.boot.stage.position:
+        if self.armed and MODES[mode].needs_position and not self.has_position:
             self.say(WARNING, f"Mode change to {mode.name} failed: requires position")
             return False
         if mode is self.mode:
@@ -233,6 +251,19 @@ class Autopilot:
     def say(self, severity: int, text: str) -> None:
         self.texts.append((severity, text))
 
+    def _disturb_sensors(self) -> None:
+        self.sensors.set_faults(sensor_faults(self.parameters, self.origin.latitude_deg), self.now_s)
+        self.estimate.disturb(self.now_s)
+
+    def _change_wind(self) -> None:
+        self.wind = LocalWind(wind(self.parameters), seed=self._seed, who=self.system_id)
+
+    def _change_battery(self) -> None:
+        self.charge.supply(**battery(self.parameters))
+
+    def _break_motor(self) -> None:
+        self.airframe.uncontrolled = motor_share(self.parameters) < HOVER_THROTTLE
+
     def _boot(self, now_s: float) -> None:
         had_origin = self.boot.stage.origin
         for text in self.boot.advance(now_s - self.started_at_s):
@@ -242,15 +273,36 @@ class Autopilot:
 
     def _fly(self, dt_s: float) -> None:
         frame = self.airframe
-        demand = self.guidance.demand(self.now_s) if self.armed else None
+        demand = self.guidance.demand(self.now_s) if self.armed and not self.charge.empty else None
         if self.guidance.spooled(self.now_s):
             self.flying = True
         if frame.on_ground and demand is None:
+            if not self.estimate.exact:
+                self.estimate.advance(dt_s, self.now_s + dt_s)
             return
+        if demand is not None and not self.estimate.exact:
+            demand = self._believed(demand)
         frame.step(dt_s, demand, self.wind.at(self.now_s))
+        self.estimate.advance(dt_s, self.now_s + dt_s)
         if frame.impact_m_s is not None:
             self._idle_since_s = self.now_s + dt_s
             self.say(INFO, f"SIM Hit ground at {frame.impact_m_s:.6g} m/s")
+
+    def _believed(self, demand: Demand) -> Demand:
+        """What the airframe does when its autopilot believes its estimate: what it thinks is missing, where it thinks.
+
+        Without a position there is nothing to hold: it stays level.
+        """
+        if not self.estimate.has_position:
+            return demand._replace(level=True)
+        frame, estimate = self.airframe, self.estimate
+        cosine, sine = cos(estimate.heading_error_rad), sin(estimate.heading_error_rad)
+        north, east = demand.north_m_s - estimate.north_m_s, demand.east_m_s - estimate.east_m_s
+        return demand._replace(
+            north_m_s=frame.north_m_s + cosine * north + sine * east,
+            east_m_s=frame.east_m_s + cosine * east - sine * north,
+            down_m_s=frame.down_m_s + demand.down_m_s - estimate.down_m_s,
+        )
 
     def _drain(self, span_s: float) -> None:
         effort = 0.0
@@ -266,7 +318,7 @@ class Autopilot:
                 self.say(INFO, "EKF3 IMU1 MAG0 in-flight yaw alignment complete")
                 self.say(INFO, "EKF3 IMU0 MAG0 in-flight yaw alignment complete")
             return
-        if not self.armed or self.guidance.taking_off:
+        if not self.armed or self.guidance.taking_off or self.airframe.tumbling:
             return
         idle_s = self.now_s - self._idle_since_s + TIME_SLACK_S
         landing = self.guidance.lands

@@ -1,42 +1,21 @@
-"""What the autopilot does by itself when something is lost: who watches, what is said, what is flown then.
+"""All that watches over a vehicle, and the watch for its ground station.
 
-Every failsafe ends in an `Action`, and `ACTION_MODES` says what that is; `act` does it. Texts are ArduCopter's.
+Each watch looks once a tick, says what ArduCopter says, and leaves what to fly to `actions`. The battery is watched in
+`battery_failsafe`, the estimate in `ekf_check`, the airframe in `crash_check`.
 """
 
 from __future__ import annotations
 
-from enum import IntEnum
 from typing import TYPE_CHECKING
 
-from vehicle_sim.autopilot.modes import Mode
+from vehicle_sim.autopilot.actions import Action, fail
+from vehicle_sim.autopilot.battery_failsafe import BatteryFailsafe, Level
+from vehicle_sim.autopilot.crash_check import CrashCheck
+from vehicle_sim.autopilot.ekf_check import EkfCheck
 from vehicle_sim.autopilot.severity import WARNING
 
 if TYPE_CHECKING:
     from vehicle_sim.autopilot.core import Autopilot
-
-
-class Action(IntEnum):
-    """What to do about a failsafe, numbered as BATT_FS_LOW_ACT counts."""
-
-    NONE = 0
-    LAND = 1
-    RTL = 2
-    SMART_RTL_OR_RTL = 3
-    SMART_RTL_OR_LAND = 4
-    TERMINATE = 5
-    BRAKE_OR_LAND = 7
-
-
-# The modes to try, in order. TERMINATE stops the motors wherever it is.
-ACTION_MODES: dict[Action, tuple[Mode, ...]] = {
-    Action.NONE: (),
-    Action.LAND: (Mode.LAND,),
-    Action.RTL: (Mode.RTL, Mode.LAND),
-    Action.SMART_RTL_OR_RTL: (Mode.SMART_RTL, Mode.RTL, Mode.LAND),
-    Action.SMART_RTL_OR_LAND: (Mode.SMART_RTL, Mode.LAND),
-    Action.TERMINATE: (),
-    Action.BRAKE_OR_LAND: (Mode.BRAKE, Mode.LAND),
-}
 
 # FS_GCS_ENABLE -> what to do; values that are not here return, as ArduCopter does.
 GCS_ACTIONS: dict[int, Action] = {
@@ -47,15 +26,6 @@ GCS_ACTIONS: dict[int, Action] = {
     5: Action.LAND,
     7: Action.BRAKE_OR_LAND,
 }
-
-
-def act(pilot: Autopilot, action: Action) -> None:
-    """Fly what `action` asks for: the first of its modes that can be entered."""
-    if action is Action.TERMINATE:
-        pilot.disarm(forced=True)
-    for mode in ACTION_MODES[action]:
-        if pilot.set_mode(mode):
-            return
 
 
 class GcsFailsafe:
@@ -78,16 +48,10 @@ class GcsFailsafe:
             return
         self.active = lost
         pilot.announce = True
-        if not lost:
-            pilot.say(WARNING, "GCS Failsafe Cleared")
-        elif not pilot.armed:
-            pilot.say(WARNING, "GCS Failsafe")
-        elif not pilot.flying:
-            pilot.say(WARNING, "GCS Failsafe - Disarming")
-            pilot.disarm(forced=True)
+        if lost:
+            fail(pilot, "GCS", GCS_ACTIONS.get(enabled, Action.RTL))
         else:
-            pilot.say(WARNING, "GCS Failsafe")
-            act(pilot, GCS_ACTIONS.get(enabled, Action.RTL))
+            pilot.say(WARNING, "GCS Failsafe Cleared")
 
 
 class Failsafes:
@@ -95,12 +59,18 @@ class Failsafes:
 
     def __init__(self) -> None:
         self.gcs = GcsFailsafe()
+        self.battery = BatteryFailsafe()
+        self.ekf = EkfCheck()
+        self.crash = CrashCheck()
 
     @property
     def active(self) -> bool:
         """Whether HEARTBEAT.system_status is CRITICAL."""
-        return self.gcs.active
+        return self.gcs.active or self.ekf.active or self.battery.level is not Level.FINE
 
     def watch(self, pilot: Autopilot) -> None:
         """Look at everything once."""
         self.gcs.watch(pilot)
+        self.battery.watch(pilot)
+        self.ekf.watch(pilot)
+        self.crash.watch(pilot)

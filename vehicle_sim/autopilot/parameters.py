@@ -21,6 +21,7 @@ from vehicle_sim.wind import Wind
 TYPES = {"INT8": 2, "INT16": 4, "INT32": 6, "REAL32": 9}  # MAV_PARAM_TYPE
 REAL32 = TYPES["REAL32"]
 HOLDS = {2: (-128, 127), 4: (-32768, 32767), 6: (-(2**31), 2**31 - 128), REAL32: (-3.4e38, 3.4e38)}
+LOW_SHARE = 10.5 / 12.6  # BATT_LOW_VOLT of a battery: as low as the default is for the default battery
 ROUNDING = 0.01  # added before a float is cut to an integer, as ArduPilot does
 
 
@@ -111,6 +112,7 @@ class Parameters:
         self._values |= {
             "SYSID_THISMAV": float(system_id),
             "BATT_CAPACITY": float(round(battery.capacity_mah)),
+            "BATT_LOW_VOLT": LOW_SHARE * battery.voltage_v,
             "SIM_BATT_VOLTAGE": battery.voltage_v,
             "SIM_WIND_SPD": wind.speed_m_s,
             "SIM_WIND_DIR": wind.from_deg,
@@ -158,14 +160,6 @@ class Parameters:
             descent_m_s=_within(self["WPNAV_SPEED_DN"] / 100.0, 0.1, 100.0),
             acceleration_m_s2=_within(self["WPNAV_ACCEL"] / 100.0, 0.5, 100.0),
             tilt_deg=_within(self["ANGLE_MAX"] / 100.0, 10.0, 80.0),
-        )
-
-    def wind(self) -> Wind:
-        """The wind that the parameters ask for."""
-        return Wind(
-            speed_m_s=_within(self["SIM_WIND_SPD"], 0.0, 99.0),
-            from_deg=self["SIM_WIND_DIR"],
-            gust_m_s=_within(self["SIM_WIND_TURB"], 0.0, 99.0),
         )
 
 

@@ -10,11 +10,12 @@ from dataclasses import replace
 from math import copysign, dist, hypot, sqrt
 
 from comms.frames import GeoPoint, Vec3
+from vehicle_sim.autopilot.estimate import Estimate
 from vehicle_sim.autopilot.parameters import Parameters
 from vehicle_sim.autopilot.plans.item import Item
 from vehicle_sim.autopilot.plans.place import ned_from_item
 from vehicle_sim.autopilot.sticks import NO_RADIO, Sticks
-from vehicle_sim.flight import Airframe, Demand, wrap_pi
+from vehicle_sim.flight import Demand, wrap_pi
 
 APPROACH_GAIN_1_S = 0.5
 APPROACH_BRAKING = 0.8  # of the acceleration limit
@@ -36,7 +37,7 @@ class Steering:
     """
 
     def __init__(
-        self, *, airframe: Airframe, parameters: Parameters, origin: GeoPoint, say: Callable[[int, str], None]
+        self, *, airframe: Estimate, parameters: Parameters, origin: GeoPoint, say: Callable[[int, str], None]
     ) -> None:
         self.airframe = airframe
         self.parameters = parameters

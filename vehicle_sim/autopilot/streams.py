@@ -2,18 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Container
+from typing import NamedTuple
+
+from vehicle_sim.autopilot.parameters import Parameters
 from vehicle_sim.autopilot.steering import TIME_SLACK_S
 
 HEARTBEAT_ID = 0
 HEARTBEAT_PERIOD_S = 1.0
 
-# REQUEST_DATA_STREAM: MAV_DATA_STREAM -> the messages it switches.
-GROUPS: dict[int, tuple[int, ...]] = {
-    2: (1, 24, 42),  # EXTENDED_STATUS: SYS_STATUS, GPS_RAW_INT, MISSION_CURRENT
-    6: (32, 33),  # POSITION: LOCAL_POSITION_NED, GLOBAL_POSITION_INT
-    10: (30,),  # EXTRA1: ATTITUDE
-    11: (74,),  # EXTRA2: VFR_HUD
-    12: (2, 147, 193),  # EXTRA3: SYSTEM_TIME, BATTERY_STATUS, EKF_STATUS_REPORT
+
+class Group(NamedTuple):
+    """What one REQUEST_DATA_STREAM switches, as ArduCopter 4.5 groups its messages, and the parameter of its rate."""
+
+    parameter: str
+    message_ids: tuple[int, ...]
+
+
+# MAV_DATA_STREAM -> its group.
+GROUPS: dict[int, Group] = {
+    1: Group("SR0_RAW_SENS", (27, 116, 29)),  # RAW_IMU, SCALED_IMU2, SCALED_PRESSURE
+    2: Group("SR0_EXT_STAT", (1, 125, 152, 42, 24, 62, 162, 87)),  # SYS_STATUS, ... GPS_RAW_INT, ... FENCE_STATUS ...
+    3: Group("SR0_RC_CHAN", (36, 65)),  # SERVO_OUTPUT_RAW, RC_CHANNELS
+    6: Group("SR0_POSITION", (33, 32)),  # GLOBAL_POSITION_INT, LOCAL_POSITION_NED
+    10: Group("SR0_EXTRA1", (30, 164, 178)),  # ATTITUDE, SIMSTATE, AHRS2
+    11: Group("SR0_EXTRA2", (74,)),  # VFR_HUD
+    12: Group("SR0_EXTRA3", (163, 168, 2, 147, 193, 241)),  # AHRS, WIND, SYSTEM_TIME, BATTERY_STATUS, EKF, VIBRATION
 }
 ALL_GROUPS = 0
 
@@ -24,6 +38,7 @@ class Streams:
     def __init__(self, *, started_at_s: float) -> None:
         self._periods_s: dict[int, float] = {HEARTBEAT_ID: HEARTBEAT_PERIOD_S}
         self._due_s: dict[int, float] = {HEARTBEAT_ID: started_at_s}
+        self._rates_hz: dict[str, float] = {}
 
     def set_period(self, message_id: int, period_s: float | None, now_s: float) -> None:
         """Send every `period_s` from now on; None: not at all. The heartbeat never slows down: it is a sign of life."""
@@ -35,6 +50,21 @@ class Streams:
             return
         self._periods_s[message_id] = period_s
         self._due_s[message_id] = now_s
+
+    def set_group(self, group: Group, rate_hz: float, known: Container[int], now_s: float) -> None:
+        """Send those of its messages that are `known` at `rate_hz`; 0: not at all."""
+        period_s = 1.0 / rate_hz if rate_hz > 0.0 else None
+        for message_id in group.message_ids:
+            if message_id in known:
+                self.set_period(message_id, period_s, now_s)
+
+    def follow(self, parameters: Parameters, known: Container[int], now_s: float) -> None:
+        """Stream as the SR0_* parameters say that have changed since the last call."""
+        for group in GROUPS.values():
+            rate_hz = max(0.0, parameters[group.parameter])
+            if rate_hz != self._rates_hz.get(group.parameter, 0.0):
+                self._rates_hz[group.parameter] = rate_hz
+                self.set_group(group, rate_hz, known, now_s)
 
     def period_s(self, message_id: int) -> float | None:
         return self._periods_s.get(message_id)

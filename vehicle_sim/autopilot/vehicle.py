@@ -61,6 +61,10 @@ class SimulatedVehicle:
         self.desk = Desk((pilot.missions, pilot.fences, pilot.rallies), pilot, go=pilot.fly_item)
         self.channels: list[Channel] = []
         self._here = self.open_channel()  # where the message came from that is being handled; the first otherwise
+        self.autopilot.parameters.on_change(
+            ("SR0_",),
+            lambda: self.channels[0].streams.follow(self.autopilot.parameters, BUILDERS, self.autopilot.now_s),
+        )
         self._handlers: dict[int, Callable[[Any], None]] = {
             dialect.MAVLINK_MSG_ID_HEARTBEAT: self._on_heartbeat,
             dialect.MAVLINK_MSG_ID_SET_MODE: self._on_set_mode,
@@ -193,9 +197,9 @@ class SimulatedVehicle:
             self.autopilot.hear_gcs()
 
     def _on_local_target(self, message: Any) -> None:
-        truth = self.autopilot.airframe
-        position = (truth.north_m, truth.east_m, truth.down_m)
-        setpoint = local_setpoint(message, position_ned_m=position, yaw_rad=truth.yaw_rad)
+        belief = self.autopilot.estimate
+        position = (belief.north_m, belief.east_m, belief.down_m)
+        setpoint = local_setpoint(message, position_ned_m=position, yaw_rad=belief.yaw_rad)
         self.autopilot.guidance.follow(setpoint, self.autopilot.now_s)
 
     def _on_global_target(self, message: Any) -> None:
@@ -223,11 +227,14 @@ class SimulatedVehicle:
 
     def _on_data_stream(self, message: Any) -> None:
         rate_hz = message.req_message_rate if message.start_stop else 0
-        period_s = 1.0 / rate_hz if rate_hz > 0 else None
         everything = tuple(GROUPS) if message.req_stream_id == ALL_GROUPS else (message.req_stream_id,)
-        for group in everything:
-            for message_id in GROUPS.get(group, ()):
-                self.streams.set_period(message_id, period_s, self.autopilot.now_s)
+        for number in everything:
+            if number in GROUPS:
+                self.streams.set_group(GROUPS[number], rate_hz, BUILDERS, self.autopilot.now_s)
+
+    def _on_stream_rates(self) -> None:
+        """The rates of the first channel are parameters, too."""
+        self.channels[0].streams.follow(self.autopilot.parameters, BUILDERS, self.autopilot.now_s)
 
     def _on_param(self, answer: Callable[[Autopilot, Any], Iterable[Any]], message: Any) -> None:
         for reply in answer(self.autopilot, message):
