@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from vehicle_sim.autopilot.battery_failsafe import Level, shortage
 from vehicle_sim.autopilot.boot import NEED_POSITION
+from vehicle_sim.autopilot.fence import named
 from vehicle_sim.autopilot.modes import MODES
 from vehicle_sim.autopilot.steering import TIME_SLACK_S
 
@@ -76,7 +77,13 @@ def _parameters(pilot: Autopilot) -> Iterator[Complaint]:
         yield PARAMETERS, "Check ANGLE_MAX"
 
 
-CHECKS: tuple[Check, ...] = (_boot, _position, _compass, _battery, _parameters)
+def _fence(pilot: Autopilot) -> Iterator[Complaint]:
+    beyond = pilot.fence.beyond_m(pilot)
+    if beyond:
+        yield MANDATORY, f"vehicle outside {named(beyond)} fence"
+
+
+CHECKS: tuple[Check, ...] = (_boot, _position, _compass, _battery, _parameters, _fence)
 
 
 def complaints(pilot: Autopilot) -> list[str]:

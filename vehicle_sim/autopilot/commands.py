@@ -141,6 +141,13 @@ def _no_message(request: Request, message_id: int, result: Result) -> Result:
     return result
 
 
+def _fence_enable(request: Request) -> Result:
+    switch = request.params[0]
+    if switch not in (0.0, 1.0):
+        return Result.FAILED
+    return _done(request.pilot.parameters.store("FENCE_ENABLE", switch))
+
+
 def _mission_start(request: Request) -> Result:
     return _done(request.pilot.start_mission())
 
@@ -163,6 +170,7 @@ COMMANDS: dict[int, Handler] = {
     22: _takeoff,  # NAV_TAKEOFF
     176: _do_set_mode,  # DO_SET_MODE
     178: _change_speed,  # DO_CHANGE_SPEED
+    207: _fence_enable,  # DO_FENCE_ENABLE
     224: _set_mission_current,  # DO_SET_MISSION_CURRENT
     300: _mission_start,  # MISSION_START
     400: _arm_disarm,  # COMPONENT_ARM_DISARM

@@ -13,6 +13,7 @@ from vehicle_sim.autopilot.boot import Boot
 from vehicle_sim.autopilot.estimate import Estimate
 from vehicle_sim.autopilot.failsafes import Failsafes
 from vehicle_sim.autopilot.faults import SENSOR_NAMES, battery, motor_share, sensor_faults, wind
+from vehicle_sim.autopilot.fence import Fence
 from vehicle_sim.autopilot.guidance import Guidance
 from vehicle_sim.autopilot.mission import Mission, State
 from vehicle_sim.autopilot.modes import MODES, Mode
@@ -79,8 +80,11 @@ class Autopilot:
         self.boot = Boot(boot_s=config.boot_s, field_elevation_m=home.altitude_m)
         self.texts: list[tuple[int, str]] = []
         self.missions, self.fences, self.rallies = (Store(kind) for kind in KINDS)
+        self.fence = Fence(self.fences)
         self.mission = Mission(self.missions, say=self.say)
-        steering = Steering(airframe=self.estimate, parameters=self.parameters, origin=home, say=self.say)
+        steering = Steering(
+            airframe=self.estimate, parameters=self.parameters, origin=home, rallies=self.rallies, say=self.say
+        )
         self.guidance = Guidance(steering=steering, mission=self.mission)
         self.parameters.on_change(LIMIT_NAMES, self.guidance.retune)
         self.mode = Mode.STABILIZE
@@ -240,6 +244,7 @@ class Autopilot:
             self.guidance.drop_crumb()
         self._watch_ground()
         self.failsafes.watch(self)
+        self.fence.watch(self)
         for text in self._reminder.due(self):
             self.say(CRITICAL, text)
 

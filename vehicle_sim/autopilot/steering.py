@@ -14,6 +14,8 @@ from vehicle_sim.autopilot.estimate import Estimate
 from vehicle_sim.autopilot.parameters import Parameters
 from vehicle_sim.autopilot.plans.item import Item
 from vehicle_sim.autopilot.plans.place import ned_from_item
+from vehicle_sim.autopilot.plans.store import Store
+from vehicle_sim.autopilot.rally import refuge_ned_m
 from vehicle_sim.autopilot.sticks import NO_RADIO, Sticks
 from vehicle_sim.flight import Demand, wrap_pi
 
@@ -37,12 +39,19 @@ class Steering:
     """
 
     def __init__(
-        self, *, airframe: Estimate, parameters: Parameters, origin: GeoPoint, say: Callable[[int, str], None]
+        self,
+        *,
+        airframe: Estimate,
+        parameters: Parameters,
+        origin: GeoPoint,
+        rallies: Store,
+        say: Callable[[int, str], None],
     ) -> None:
         self.airframe = airframe
         self.parameters = parameters
         self.say = say
         self.origin = origin
+        self._rallies = rallies
         self.throttle_up = False
         self.home_ned_m: Vec3 = (0.0, 0.0, 0.0)
         self.sticks: Sticks = NO_RADIO
@@ -76,6 +85,17 @@ class Steering:
         """Where an item of a plan is; what it leaves open is as `otherwise_ned_m`, or as here."""
         otherwise = self.place_ned_m if otherwise_ned_m is None else otherwise_ned_m
         return ned_from_item(item, origin=self.origin, home_ned_m=self.home_ned_m, otherwise_ned_m=otherwise)
+
+    def refuge_ned_m(self) -> Vec3:
+        """Where a return leads: home or the nearest rally point, at its height."""
+        parameters = self.parameters
+        return refuge_ned_m(
+            self.home_ned_m,
+            map(self.ned_from_item, self._rallies.items),
+            distance_m=self.distance_m,
+            furthest_m=1000.0 * parameters["RALLY_LIMIT_KM"],
+            home_counts=parameters["RALLY_INCL_HOME"] == 1.0,
+        )
 
     def change_speed(self, kind: int, speed_m_s: float) -> bool:
         """Another speed limit until the mode or a limit changes: 0 and 1 over ground, 2 climb, 3 descent."""

@@ -63,5 +63,5 @@ def test_armed_control_bits_are_the_recorded_ones() -> None:
 @pytest.mark.parametrize("message_id", sorted(BUILDERS))
 def test_each_message_can_be_requested_and_is_that_message(message_id: int) -> None:
     station = flying()
-    heard = station.tick(velocity(1.0), order(512, message_id))
+    heard = station.tick(velocity(1.0), order(207, 1), order(512, message_id))  # a fence that is on has a status
     assert message_id in [message.get_msgId() for message in heard]

@@ -1,4 +1,4 @@
-"""RTL: up to RTL_ALT, home, wait, down. The last two stages are how SMART_RTL ends, too."""
+"""RTL: up to RTL_ALT, home (or to a nearer rally point), wait, down. SMART_RTL ends with the same descent."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from vehicle_sim.flight import Demand
 
 LOWEST_RETURN_M = 2.0  # above home (RTL_ALT_MIN)
 SHALLOWEST_CONE = 0.5  # RTL_CONE_SLOPE below this does not count
+CEILING = 1  # a bit of FENCE_TYPE
 AT_HOME_M = 0.5
 AT_ALTITUDE_M = 0.2
 
@@ -30,8 +31,9 @@ class ReturnHome(Navigator):
     def __init__(self, steering: Steering, now_s: float) -> None:
         super().__init__(steering, now_s)
         self.stage = Return.CLIMB
-        north_m, east_m, down_m = steering.home_ned_m
-        self._goal_ned_m: Vec3 = (north_m, east_m, down_m - self._height_m(steering))
+        north_m, east_m, down_m = refuge = steering.refuge_ned_m()
+        height_m = max(self._height_m(steering, refuge), steering.home_ned_m[2] - down_m)
+        self._goal_ned_m: Vec3 = (north_m, east_m, steering.home_ned_m[2] - height_m)
         self._waits_from_s = now_s
 
     @property
@@ -56,15 +58,20 @@ class ReturnHome(Navigator):
         return descend(steering, goal)
 
     @staticmethod
-    def _height_m(steering: Steering) -> float:
-        """Above home: RTL_ALT, never down from here, and no higher than a cone above home that RTL_CONE_SLOPE opens."""
+    def _height_m(steering: Steering, refuge_ned_m: Vec3) -> float:
+        """Above home: RTL_ALT, never down from here, no higher than the cone above the goal that RTL_CONE_SLOPE opens.
+
+        Below the fence's ceiling, by FENCE_MARGIN.
+        """
         parameters = steering.parameters
         lowest_m = max(LOWEST_RETURN_M, steering.height_m + max(0.0, parameters["RTL_CLIMB_MIN"] / 100.0))
         height_m = max(parameters["RTL_ALT"] / 100.0, lowest_m)
         if parameters["RTL_CONE_SLOPE"] >= SHALLOWEST_CONE:
-            cone_m = steering.distance_m(steering.home_ned_m) * parameters["RTL_CONE_SLOPE"]
+            cone_m = steering.distance_m(refuge_ned_m) * parameters["RTL_CONE_SLOPE"]
             height_m = min(height_m, max(cone_m, lowest_m))
-        return height_m
+        if parameters["FENCE_ENABLE"] and int(parameters["FENCE_TYPE"]) & CEILING:
+            height_m = min(height_m, parameters["FENCE_ALT_MAX"] - parameters["FENCE_MARGIN"])
+        return max(height_m, steering.height_m)
 
 
 def descend(steering: Steering, goal_ned_m: Vec3) -> Demand:

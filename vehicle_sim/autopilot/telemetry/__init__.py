@@ -37,6 +37,7 @@ BUILDERS: dict[int, Builder] = {
     147: state.battery_status,
     148: state.autopilot_version,
     152: state.meminfo,
+    162: state.fence_status,
     163: sensed.ahrs,
     164: sensed.simstate,
     168: sensed.wind,

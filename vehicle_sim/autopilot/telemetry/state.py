@@ -9,6 +9,7 @@ from pymavlink.dialects.v20 import ardupilotmega as dialect
 from vehicle_sim.autopilot.arming import complaints
 from vehicle_sim.autopilot.battery_failsafe import Level
 from vehicle_sim.autopilot.core import Autopilot
+from vehicle_sim.autopilot.fence import Border
 from vehicle_sim.autopilot.modes import MODES, Mode
 from vehicle_sim.autopilot.telemetry.fields import boot_ms, i16, i32, throttle, u16
 
@@ -19,9 +20,10 @@ ON_GROUND, IN_AIR, TAKING_OFF, LANDING = 1, 2, 3, 4  # EXTENDED_SYS_STATE.landed
 
 # SYS_STATUS sensors as recorded, and the bits that come and go.
 PRESENT, ENABLED, HEALTHY = 0x5371FC0F, 0x52419C0F, 0x47519C0F
-COMPASS, GPS, AHRS, CONTROLLERS, LOGGING, BATTERY, PREARM = (
+COMPASS, GPS, FENCE, AHRS, CONTROLLERS, LOGGING, BATTERY, PREARM = (
     0x4,
     0x20,
+    0x100000,
     0x200000,
     0x6000,
     0x1000000,
@@ -30,8 +32,14 @@ COMPASS, GPS, AHRS, CONTROLLERS, LOGGING, BATTERY, PREARM = (
 )
 
 # What this autopilot really has, of the bits that ArduCopter sets.
-PARAM_FLOAT, COMMAND_INT, SET_ATTITUDE, SET_LOCAL, SET_GLOBAL, MAVLINK2 = 2, 8, 64, 128, 256, 8192
-CAPABILITIES = PARAM_FLOAT | COMMAND_INT | SET_LOCAL | SET_GLOBAL | MAVLINK2
+MISSION_FLOAT, PARAM_FLOAT, MISSION_INT, COMMAND_INT = 1, 2, 4, 8
+SET_ATTITUDE, SET_LOCAL, SET_GLOBAL, TERMINATION = 64, 128, 256, 2048
+MAVLINK2, FENCES, RALLIES = 8192, 16384, 32768
+CAPABILITIES = (
+    MISSION_FLOAT | PARAM_FLOAT | MISSION_INT | COMMAND_INT | SET_ATTITUDE | SET_LOCAL | SET_GLOBAL | TERMINATION
+    | MAVLINK2 | FENCES | RALLIES
+)  # fmt: skip
+FENCE_BREACH = {Border.NONE: 0, Border.ALT_MIN: 1, Border.ALT_MAX: 2, Border.CIRCLE: 3, Border.POLYGON: 3}
 VERSION_4_5_5 = 0x040505FF
 BOOTED_AT_UNIX_S = 1_767_225_600  # 2026-01-01: the mission clock has no date, GPS time must have one
 CENTER_US, LOW_US, HALF_US = 1500, 1000, 500  # of a remote control
@@ -63,6 +71,10 @@ def sys_status(pilot: Autopilot) -> Any:
         healthy &= ~COMPASS
     if pilot.failsafes.battery.level is not Level.FINE:
         healthy &= ~BATTERY
+    if pilot.parameters["FENCE_ENABLE"]:
+        enabled |= FENCE
+    if pilot.fence.breached:
+        healthy &= ~FENCE
     if pilot.armed:
         enabled |= LOGGING
     if pilot.armed or not complaints(pilot):
@@ -123,6 +135,16 @@ def mission_current(pilot: Autopilot) -> Any:
     return dialect.MAVLink_mission_current_message(
         mission.current, max(0, len(mission.items) - 1), int(mission.state), flies
     )
+
+
+def fence_status(pilot: Autopilot) -> Any:
+    """Nothing while the fence is switched off."""
+    fence = pilot.fence
+    if not pilot.parameters["FENCE_ENABLE"]:
+        return None
+    at_ms = round(1000.0 * max(0.0, fence.breached_at_s - pilot.started_at_s)) & 0xFFFFFFFF
+    kind = FENCE_BREACH[fence.last if fence.breached else Border.NONE]
+    return dialect.MAVLink_fence_status_message(int(bool(fence.breached)), min(65535, fence.breaches), kind, at_ms)
 
 
 def power_status(pilot: Autopilot) -> Any:

@@ -1,0 +1,121 @@
+"""The fence: a ceiling, a floor, a circle around home and what was uploaded; and what happens to who crosses it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from enum import IntFlag
+from typing import TYPE_CHECKING
+
+from vehicle_sim.autopilot.actions import Action, act
+from vehicle_sim.autopilot.modes import Mode
+from vehicle_sim.autopilot.outline import Outline, outline
+from vehicle_sim.autopilot.plans.store import Store
+from vehicle_sim.autopilot.severity import NOTICE
+
+if TYPE_CHECKING:
+    from vehicle_sim.autopilot.core import Autopilot
+
+GIVE_UP_M = 100.0  # further out than this it lands where it is
+AGAIN_M = 20.0  # further out, and a breach counts again ...
+RECOVERY_S = 10.0  # ... unless the mode was changed this short ago: somebody is at it
+
+
+class Border(IntFlag):
+    """The bits of FENCE_TYPE."""
+
+    NONE = 0
+    ALT_MAX = 1
+    CIRCLE = 2
+    POLYGON = 4
+    ALT_MIN = 8
+
+
+NAMES = {Border.ALT_MAX: "Max Alt", Border.CIRCLE: "Circle", Border.POLYGON: "Polygon", Border.ALT_MIN: "Min Alt"}
+
+# FENCE_ACTION -> what to do; values that are not here do nothing.
+FENCE_ACTIONS: dict[int, Action] = {
+    1: Action.RTL,
+    2: Action.LAND,
+    3: Action.SMART_RTL_OR_RTL,
+    4: Action.BRAKE_OR_LAND,
+    5: Action.SMART_RTL_OR_LAND,
+}
+
+
+class Fence:
+    """One vehicle's fences.
+
+    Attributes:
+        breached: the borders it is beyond. breaches: how often one was crossed. last, breached_at_s: the last crossing.
+    """
+
+    def __init__(self, store: Store) -> None:
+        self._store = store
+        self._version = -1
+        self._outline = Outline()
+        self._again_m: dict[Border, float] = {}
+        self._mode: Mode | None = None
+        self._recovers_until_s = 0.0
+        self.breached = Border.NONE
+        self.last = Border.NONE
+        self.breaches = 0
+        self.breached_at_s = 0.0
+
+    def beyond_m(self, pilot: Autopilot) -> dict[Border, float]:
+        """How far it is beyond each border that is switched on (a polygon: 0); only those that it is beyond."""
+        steering, parameters = pilot.guidance.steering, pilot.parameters
+        if not parameters["FENCE_ENABLE"] or not pilot.has_position:
+            return {}
+        if self._version != self._store.version:
+            self._version = self._store.version
+            self._outline = outline(self._store.items, steering.ned_from_item)
+        north_m, east_m, _ = steering.place_ned_m
+        beyond = {
+            Border.ALT_MAX: steering.height_m - parameters["FENCE_ALT_MAX"],
+            Border.CIRCLE: steering.distance_m(steering.home_ned_m) - parameters["FENCE_RADIUS"],
+            Border.POLYGON: -1.0 if self._outline.allows(north_m, east_m) else 0.0,
+            Border.ALT_MIN: parameters["FENCE_ALT_MIN"] - steering.height_m,
+        }
+        switched_on = int(parameters["FENCE_TYPE"])
+        return {border: out_m for border, out_m in beyond.items() if border & switched_on and out_m >= 0.0}
+
+    def watch(self, pilot: Autopilot) -> None:
+        """Look once: say and do what a new crossing asks for, and say when it is over."""
+        if pilot.mode is not self._mode:
+            self._mode = pilot.mode
+            self._recovers_until_s = pilot.now_s + RECOVERY_S if self.breached else 0.0
+        beyond = self.beyond_m(pilot)
+        before, self.breached = self.breached, Border(sum(beyond))
+        recovering = pilot.now_s < self._recovers_until_s
+        new = {
+            border: out_m
+            for border, out_m in beyond.items()
+            if border not in before or (out_m > self._again_m.get(border, out_m) and not recovering)
+        }
+        if new:
+            self._cross(pilot, new)
+        elif before and not self.breached and pilot.flying:
+            pilot.say(NOTICE, "Fence breach cleared")
+
+    def _cross(self, pilot: Autopilot, new: dict[Border, float]) -> None:
+        self.last, self.breached_at_s = max(new), pilot.now_s
+        self.breaches += 1
+        self._again_m |= {border: out_m + AGAIN_M for border, out_m in new.items()}
+        if not pilot.armed:
+            return
+        if pilot.flying:
+            pilot.say(NOTICE, f"{named(new)} fence breached")
+        action = FENCE_ACTIONS.get(int(pilot.parameters["FENCE_ACTION"]))
+        if action is None:
+            return
+        falls = pilot.mode is Mode.STABILIZE and pilot.guidance.steering.sticks.throttle == 0.0
+        if not pilot.flying or (falls and Border.ALT_MAX not in self.breached):
+            pilot.disarm(forced=True)
+        else:
+            act(pilot, Action.LAND if max(new.values()) > GIVE_UP_M else action)
+        self._mode = pilot.mode  # its own change is nobody's recovery
+
+
+def named(borders: Iterable[Border]) -> str:
+    """The borders as a text names them."""
+    return " and ".join(NAMES[border] for border in borders)
