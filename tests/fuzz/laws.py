@@ -28,7 +28,7 @@ class Broken(AssertionError):  # noqa: N818
 
 
 class Tick(NamedTuple):
-    """One tick of a vehicle: `now_s` is its end."""
+    """One tick of a vehicle: `now_s` is its end, `wind_m_s` the strongest wind of the episode so far, with gusts."""
 
     vehicle: SimulatedVehicle
     before: VehicleTruth
@@ -37,6 +37,14 @@ class Tick(NamedTuple):
     now_s: float
     wire_out: bytes
     ideal: bool
+    wind_m_s: float
+
+    @property
+    def gain_m_s2(self) -> float:
+        """The greatest acceleration that lean and drag give: the air may move against the vehicle, and turn."""
+        airspeed_m_s = max(hypot(*t.velocity_ned_m_s[:2]) for t in (self.before, self.after)) + 2.0 * self.wind_m_s
+        drag_m_s2 = (DRAG_1_S + DRAG_1_M * airspeed_m_s) * airspeed_m_s
+        return drag_m_s2 + lean_max_m_s2(self.vehicle.autopilot.airframe.limits)
 
 
 def frame_ids(wire: bytes) -> Iterator[int]:
@@ -69,23 +77,21 @@ def moves_as_far_as_its_speed(tick: Tick) -> None:
     """A change of velocity within the tick counts half, but the bound gives all of it."""
     fastest_m_s = max(hypot(*tick.before.velocity_ned_m_s), hypot(*tick.after.velocity_ned_m_s))
     limits = tick.vehicle.autopilot.airframe.limits
-    gain_m_s = (GRAVITY_M_S2 + lean_max_m_s2(limits)) * tick.span_s
+    gain_m_s = (GRAVITY_M_S2 + tick.gain_m_s2) * tick.span_s
     if tick.ideal:
-        gain_m_s += hypot(limits.speed_m_s, max(limits.climb_m_s, limits.descent_m_s))
+        gain_m_s += hypot(limits.speed_m_s + tick.wind_m_s, max(limits.climb_m_s, limits.descent_m_s))
     moved_m = dist(tick.before.position_ned_m, tick.after.position_ned_m)
     if moved_m > (fastest_m_s + gain_m_s) * tick.span_s + SLACK:
         raise Broken(f"moved {moved_m} m in {tick.span_s} s: {tick.before} -> {tick.after}")
 
 
 def speeds_up_as_thrust_drag_and_gravity_can(tick: Tick) -> None:
-    """Sideways no more than the lean and the drag give; down no more than gravity; a touchdown may stop it."""
-    if tick.ideal or tick.after.on_ground:
-        return
+    """Sideways no more than the lean and the drag give; down no more than gravity; the ground may stop it."""
     (n0, e0, d0), (n1, e1, d1) = tick.before.velocity_ned_m_s, tick.after.velocity_ned_m_s
-    speed_m_s = max(hypot(n0, e0), hypot(n1, e1))
-    drag_m_s2 = (DRAG_1_S + DRAG_1_M * speed_m_s) * speed_m_s
-    lean_m_s2 = lean_max_m_s2(tick.vehicle.autopilot.airframe.limits)
-    if hypot(n1 - n0, e1 - e0) > (lean_m_s2 + drag_m_s2) * tick.span_s + SLACK:
+    lowest_m = tick.before.position_ned_m[2] + (max(0.0, d0) + GRAVITY_M_S2 * tick.span_s) * tick.span_s
+    if tick.ideal or tick.after.on_ground or lowest_m >= 0.0:
+        return
+    if hypot(n1 - n0, e1 - e0) > tick.gain_m_s2 * tick.span_s + SLACK:
         raise Broken(f"sped up by {(n1 - n0, e1 - e0)} m/s in {tick.span_s} s: {tick.before} -> {tick.after}")
     fallen_m = max(0.0, d0) * tick.span_s + GRAVITY_M_S2 * tick.span_s**2
     if -tick.before.position_ned_m[2] <= fallen_m:

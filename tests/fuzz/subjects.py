@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from math import inf, nan
+from math import hypot, inf, nan
 
-from comms.mavlink import Endpoint
 from swarm_agent.autopilot import Fly, Intent, Land, Pilot, PilotConfig, Prepare, Return
 from tests.fuzz.episode import Episode, Shot
 from tests.fuzz.hostile import HOME
@@ -21,6 +20,7 @@ from tests.fuzz.laws import (
 )
 from tests.fuzz.sessions import SYSTEM
 from vehicle_sim.autopilot import SimulatedVehicle
+from vehicle_sim.autopilot.faults import wind
 from vehicle_sim.vehicle import VehicleConfig
 
 WEIGH_EVERY = 100  # ticks: looking at everything a subject has takes milliseconds
@@ -46,6 +46,7 @@ class VehicleUnderFire:
         self._now_s = 0.0
         self._beat_at_s = 0.0
         self._ticks = 0
+        self._wind_m_s = 0.0
 
     def take(self, shot: Shot) -> None:
         """One tick."""
@@ -53,7 +54,10 @@ class VehicleUnderFire:
         self._now_s += shot.span_s
         self._ticks += 1
         wire_out = self.vehicle.tick(self._now_s, b"".join(shot.wires))
-        tick = Tick(self.vehicle, before, self.vehicle.truth, shot.span_s, self._now_s, wire_out, self._ideal)
+        air = wind(self.vehicle.autopilot.parameters)
+        self._wind_m_s = max(self._wind_m_s, air.speed_m_s + hypot(air.gust_m_s, air.gust_m_s))
+        after, seen_m_s = self.vehicle.truth, self._wind_m_s
+        tick = Tick(self.vehicle, before, after, shot.span_s, self._now_s, wire_out, self._ideal, seen_m_s)
         for law in VEHICLE_LAWS:
             law(tick)
         if HEARTBEAT_ID in frame_ids(wire_out):
@@ -108,8 +112,3 @@ class PilotUnderFire:
 
 
 SUBJECTS = {"vehicle": VehicleUnderFire, "pilot": PilotUnderFire}
-
-
-def receives(wire: bytes) -> int:
-    """How many frames in `wire` a fresh endpoint accepts."""
-    return len(Endpoint(system_id=SYSTEM).receive(wire))

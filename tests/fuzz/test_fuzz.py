@@ -113,9 +113,9 @@ def _truth(position_ned_m: tuple[float, float, float], velocity_ned_m_s: tuple[f
 def test_a_law_can_fail(law: str, after: VehicleTruth, wire_out: bytes) -> None:
     vehicle = VehicleUnderFire(make_episode(SEED, 0)).vehicle
     with pytest.raises(Broken):
-        BY_NAME[law](Tick(vehicle, STILL, after, 0.1, 1.0, wire_out, False))
+        BY_NAME[law](Tick(vehicle, STILL, after, 0.1, 1.0, wire_out, False, 0.0))
     for each in VEHICLE_LAWS:
-        each(Tick(vehicle, STILL, STILL, 0.1, 1.0, b"", False))
+        each(Tick(vehicle, STILL, STILL, 0.1, 1.0, b"", False, 0.0))
 
 
 def test_the_laws_of_the_pilot_and_of_memory_can_fail() -> None:

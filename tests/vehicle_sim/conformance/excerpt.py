@@ -39,6 +39,35 @@ EXCERPTS = (
 )
 
 
+class Said(NamedTuple):
+    """STATUSTEXTs from `from_s` to `to_s` after power-on; by the wall clock where the boot clock was not sent yet."""
+
+    name: str
+    source: str
+    from_s: float
+    to_s: float
+    by_wall: bool = False
+
+
+SAID = (
+    Said("boot_and_arm", "boot", 0.0, 53.0, by_wall=True),
+    Said("failsafes_and_fall", "probe3", 74.0, 90.0),
+    Said("landing", "flight2b", 107.0, 126.0),
+)
+
+
+def texts(path: Path, said: Said) -> list[str]:
+    """One line a text: seconds, severity, words."""
+    with gzip.open(path, "rt") as lines:
+        heard = [json.loads(line) for line in lines]
+    return [
+        f"{at_s:7.2f} {message['severity']} {message['text']}"
+        for wall_s, boot_s, _, _, message in heard
+        if message["mavpackettype"] == "STATUSTEXT"
+        and said.from_s <= (at_s := wall_s if said.by_wall else boot_s) <= said.to_s
+    ]
+
+
 def track(path: Path) -> list[tuple[float, dict[str, Any]]]:
     """Every LOCAL_POSITION_NED with its boot time in seconds."""
     with gzip.open(path, "rt") as lines:
@@ -67,6 +96,9 @@ def main(directory: Path) -> None:
             writer = csv.writer(out, lineterminator="\n")
             writer.writerow(("time_s", *excerpt.fields))
             writer.writerows(grid)
+    for said in SAID:
+        spoken = texts(directory / f"{said.source}.jsonl.gz", said)
+        (RECORDINGS / f"{said.name}.txt").write_text("\n".join(spoken) + "\n")
 
 
 if __name__ == "__main__":

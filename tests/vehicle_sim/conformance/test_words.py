@@ -1,0 +1,72 @@
+"""What the vehicle says and when: the same orders at the same times as in the recording, and the same texts."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import pytest
+
+from tests.vehicle_sim.autopilot.ground_station import GUIDED, LAND, GroundStation, flying, order
+from vehicle_sim.vehicle import VehicleConfig
+
+RECORDINGS = Path(__file__).parent / "recordings"
+LATE_S = 0.25  # our texts leave with a tick of 0.1 s, and the recorded moments are those of arrival
+TRIES_S = (6.03, 7.53, 9.03, 10.54, 12.04, 13.55, 15.06, 16.57, 18.08, 19.58, 21.08, 22.59, 24.09, 25.60, 27.10, 28.61,
+           30.11, 31.62, 33.12, 34.62, 36.13, 37.64, 39.14, 40.65, 42.15)  # fmt: skip
+
+
+class Line(NamedTuple):
+    """One text."""
+
+    at_s: float
+    severity: int
+    text: str
+
+
+def recorded(name: str) -> list[Line]:
+    lines = (RECORDINGS / f"{name}.txt").read_text().splitlines()
+    return [
+        Line(float(at_s), int(severity), text) for at_s, severity, text in (line.split(maxsplit=2) for line in lines)
+    ]
+
+
+def said(station: GroundStation, *, since_s: float = 0.0) -> list[Line]:
+    texts = station.all("STATUSTEXT")
+    return [Line(at_s - since_s, message.severity, message.text) for at_s, message in texts if at_s > since_s]
+
+
+def replay(station: GroundStation, orders: list[tuple[float, Any]], *, seconds: float) -> None:
+    """Send each message at its time, counted from now."""
+    began = station.ticks
+    for at_s, message in orders:
+        station.tick(seconds=max(0.0, at_s - (station.ticks - began) * 0.1))
+        station.tick(message)
+    station.tick(seconds=seconds - (station.ticks - began) * 0.1)
+
+
+def assert_same(ours: list[Line], theirs: list[Line]) -> None:
+    """The same texts, each within LATE_S of its time: neighbors that are nearer may change places."""
+    by_text = [sorted(lines, key=lambda line: (line.text, line.at_s)) for lines in (ours, theirs)]
+    assert [line[1:] for line in by_text[0]] == [line[1:] for line in by_text[1]]
+    for mine, real in zip(*by_text, strict=True):
+        assert mine.at_s == pytest.approx(real.at_s, abs=LATE_S), (mine, real)
+
+
+def test_power_up_25_tries_to_arm_and_ten_idle_seconds() -> None:
+    """From power-on to armed and, left alone, disarmed again: 58 texts."""
+    station = GroundStation(VehicleConfig(boot_s=41.16))
+    replay(station, [(6.0, order(176, 1, GUIDED)), *((at_s, order(400, 1)) for at_s in TRIES_S)], seconds=53.0)
+    assert_same(said(station), recorded("boot_and_arm"))
+
+
+def test_landing_says_how_hard_and_disarms() -> None:
+    theirs = recorded("landing")
+    station = flying(altitude_m=6.29)
+    began_s = station.now_s
+    station.tick(order(176, 1, LAND), seconds=20.0)
+    ours = said(station, since_s=began_s)
+    assert [line.text.split(" at ")[0] for line in ours] == [line.text.split(" at ")[0] for line in theirs]
+    assert float(ours[0].text.split()[4]) == pytest.approx(float(theirs[0].text.split()[4]), abs=0.03)
+    for mine, real in zip(ours, theirs, strict=True):
+        assert mine.at_s == pytest.approx(real.at_s - 110.857, abs=LATE_S)
