@@ -6,7 +6,7 @@
     messages = other_end.receive(wire)   # never raises, whatever the bytes are
 
 The framing is our own because pymavlink's parser loses up to seven good frames behind a stray start byte and lets its
-buffer grow without limit; packing, checksums and message types are pymavlink's.
+buffer grow without limit, and so is packing (`packing`); checksums and message types are pymavlink's.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from typing import Any
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
 from comms.framing import SIGNED_FLAG, START, frame_bytes
+from comms.packing import packed
 from comms.signing import Signing
 
 # pymavlink reads this switch from the environment, where any text, "0" too, turns the checksum off.
@@ -66,7 +67,9 @@ class Endpoint:
         codec = self._packer
         if self.signing is not None:
             codec.signing.timestamp = self.signing.next_stamp()
-        frame = message.pack(codec)
+            frame = message.pack(codec)
+        else:
+            frame = packed(message, sequence=codec.seq, system_id=self.system_id, component_id=self.component_id)
         room = BYTES_OF_A_SOURCE if message.get_msgId() == dialect.MAVLINK_MSG_ID_HEARTBEAT else BYTES_OUT
         if self._waiting_bytes + len(frame) > room:
             self.dropped += 1

@@ -18,7 +18,7 @@ MAY_IMPORT = {
 # A package, and the files (or folders) that alone may import it.
 FENCES = {
     "zenoh": {"comms/session.py"},
-    "pymavlink": {"comms/mavlink.py", "swarm_agent/autopilot/", "vehicle_sim/autopilot/"},
+    "pymavlink": {"comms/mavlink.py", "comms/packing.py", "swarm_agent/autopilot/", "vehicle_sim/autopilot/"},
     "rerun": {"missions/recording/"},
     "numpy": {"missions/recording/", "missions/study/", "missions/train"},
     "torch": {"missions/train"},

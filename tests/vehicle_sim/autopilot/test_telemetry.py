@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from math import degrees, hypot
+from math import asin, atan2, degrees, hypot
 
 import pytest
+from pymavlink.dialects.v20 import ardupilotmega as dialect
 
 from tests.vehicle_sim.autopilot.ground_station import VELOCITY_YAW, flying, order, ready, velocity
 from vehicle_sim.autopilot.telemetry import BUILDERS
@@ -65,3 +66,70 @@ def test_each_message_can_be_requested_and_is_that_message(message_id: int) -> N
     station = flying()
     heard = station.tick(velocity(1.0), order(207, 1), order(512, message_id))  # a fence that is on has a status
     assert message_id in [message.get_msgId() for message in heard]
+
+
+def test_the_quaternion_is_the_attitude() -> None:
+    station = flying()
+    station.stream(30, 31)
+    for _ in range(30):
+        station.tick(velocity(4.0, 3.0, mask=VELOCITY_YAW, yaw=2.0))
+    q, attitude = station.last("ATTITUDE_QUATERNION"), station.last("ATTITUDE")
+    assert q.q1**2 + q.q2**2 + q.q3**2 + q.q4**2 == pytest.approx(1.0)
+    roll = atan2(2.0 * (q.q1 * q.q2 + q.q3 * q.q4), 1.0 - 2.0 * (q.q2**2 + q.q3**2))
+    pitch = asin(2.0 * (q.q1 * q.q3 - q.q4 * q.q2))
+    yaw = atan2(2.0 * (q.q1 * q.q4 + q.q2 * q.q3), 1.0 - 2.0 * (q.q3**2 + q.q4**2))
+    assert (roll, pitch, yaw) == pytest.approx((attitude.roll, attitude.pitch, attitude.yaw), abs=1e-6)
+
+
+def test_what_the_sensors_read_hovering_is_what_was_recorded() -> None:
+    """flight2a, at 494 m: gravity, the earth's field, and a motor's 1587 us."""
+    station = flying(altitude_m=6.0)
+    station.tick(seconds=5.0)
+    station.stream(27, 29, 36, 65, 116)
+    station.tick(seconds=1.0)
+    imu, same = station.last("RAW_IMU"), station.last("SCALED_IMU2")
+    assert (imu.xacc, imu.yacc, imu.zacc) == (0, 0, pytest.approx(-1000, abs=2))
+    assert (imu.xgyro, imu.ygyro, imu.zgyro) == (0, 0, 0)
+    assert hypot(imu.xmag, imu.ymag, imu.zmag) == pytest.approx(hypot(245, 13, 414), rel=0.01)
+    assert (same.xacc, same.zacc, same.zmag) == (imu.xacc, imu.zacc, imu.zmag)
+    assert station.last("SCALED_PRESSURE").press_abs == pytest.approx(955.28, abs=0.5)
+    assert station.last("SERVO_OUTPUT_RAW").servo1_raw == pytest.approx(1587, abs=3)
+    sticks = station.last("RC_CHANNELS")
+    assert (sticks.chan1_raw, sticks.chan2_raw, sticks.chan3_raw, sticks.chan4_raw) == (1500, 1500, 1000, 1500)
+
+
+def test_wind_by_parameter_blows_and_is_reported() -> None:
+    station = flying()
+    station.stream(168, 74)
+    for name, value in ((b"SIM_WIND_SPD", 6.0), (b"SIM_WIND_DIR", 90.0)):
+        station.tick(dialect.MAVLink_param_set_message(3, 1, name, value, 9))
+    station.tick(seconds=1.0)
+    assert station.vehicle.truth.velocity_ned_m_s[1] < -0.3  # a gust from the east, before it leans against it
+    station.tick(seconds=15.0)
+    assert station.vehicle.truth.velocity_ned_m_s[1] == pytest.approx(0.0, abs=0.02)
+    assert (station.last("WIND").direction, station.last("WIND").speed) == (pytest.approx(90.0), pytest.approx(6.0))
+    assert station.last("VFR_HUD").airspeed == pytest.approx(6.0, abs=0.05)
+    assert station.vehicle.truth.roll_rad == pytest.approx(0.26, abs=0.02)  # leaning right, into it
+
+
+def test_streams_come_in_the_groups_of_arducopter_and_by_parameter() -> None:
+    station = ready()
+
+    def kinds(seconds: float = 2.0) -> set[str]:
+        return {message.get_type() for message in station.tick(seconds=seconds)} - {"HEARTBEAT", "STATUSTEXT"}
+
+    station.tick(dialect.MAVLink_request_data_stream_message(3, 1, 1, 4, 1))
+    assert kinds() == {"RAW_IMU", "SCALED_IMU2", "SCALED_PRESSURE"}
+    station.tick(dialect.MAVLink_request_data_stream_message(3, 1, 1, 4, 0))
+    assert kinds() == set()
+    station.tick(dialect.MAVLink_param_set_message(3, 1, b"SR0_EXTRA1", 5.0, 4))
+    heard = [message.get_type() for message in station.tick(seconds=4.0)]
+    assert heard.count("ATTITUDE") == heard.count("AHRS2") == pytest.approx(20, abs=1)
+    station.tick(dialect.MAVLink_param_set_message(3, 1, b"SR0_EXTRA1", 0.0, 4))
+    assert kinds() == set()
+    station.tick(dialect.MAVLink_request_data_stream_message(3, 1, 0, 2, 1))
+    assert kinds() >= {
+        "SYS_STATUS", "POWER_STATUS", "MEMINFO", "GPS_RAW_INT", "SERVO_OUTPUT_RAW", "RC_CHANNELS", "RAW_IMU",
+        "SCALED_IMU2", "SCALED_PRESSURE", "GLOBAL_POSITION_INT", "LOCAL_POSITION_NED", "ATTITUDE", "SIMSTATE", "AHRS2",
+        "VFR_HUD", "AHRS", "WIND", "SYSTEM_TIME", "BATTERY_STATUS", "EKF_STATUS_REPORT", "VIBRATION",
+    }  # fmt: skip
