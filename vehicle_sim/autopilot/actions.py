@@ -6,6 +6,7 @@ from enum import IntEnum
 from typing import TYPE_CHECKING
 
 from vehicle_sim.autopilot.modes import Mode
+from vehicle_sim.autopilot.navigation.landing import Land
 from vehicle_sim.autopilot.severity import WARNING
 
 if TYPE_CHECKING:
@@ -52,6 +53,12 @@ def enter_first(pilot: Autopilot, modes: tuple[Mode, ...]) -> None:
             return
 
 
+def pause_landing(pilot: Autopilot) -> None:
+    """If it lands now: not at once, as every landing that a failsafe began (recorded; a fence's does not wait)."""
+    if isinstance(pilot.guidance.navigator, Land):
+        pilot.guidance.navigator.pause()
+
+
 def fail(pilot: Autopilot, what: str, action: Action) -> None:
     """Say that `what` failed and do something about it: on the ground, disarm; in a landing, perhaps just go on."""
     landing = pilot.guidance.landing and int(pilot.parameters["FS_OPTIONS"]) & LANDING_GOES_ON
@@ -65,6 +72,7 @@ def fail(pilot: Autopilot, what: str, action: Action) -> None:
     else:
         pilot.say(WARNING, f"{what} Failsafe")
         act(pilot, action)
+        pause_landing(pilot)
 
 
 def action_of(number: float, otherwise: Action) -> Action:

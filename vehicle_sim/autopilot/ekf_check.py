@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from vehicle_sim.autopilot.actions import enter_first
+from vehicle_sim.autopilot.actions import enter_first, pause_landing
 from vehicle_sim.autopilot.modes import MODES, Mode
 from vehicle_sim.autopilot.severity import CRITICAL, WARNING
 from vehicle_sim.autopilot.steering import TIME_SLACK_S
@@ -66,6 +66,7 @@ class EkfCheck:
         action = int(pilot.parameters["FS_EKF_ACTION"])
         if pilot.armed and (MODES[pilot.mode].needs_position or action == LAND_EVEN_WITHOUT_NEED):
             enter_first(pilot, ACTION_MODES.get(action, (Mode.LAND,)))
+            pause_landing(pilot)
             self._acted = True
             pilot.say(CRITICAL, f"EKF Failsafe: changed to {pilot.mode.name} Mode")
 

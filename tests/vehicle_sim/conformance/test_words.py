@@ -6,8 +6,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import pytest
+from pymavlink.dialects.v20 import ardupilotmega as dialect
 
-from tests.vehicle_sim.autopilot.ground_station import GUIDED, LAND, GroundStation, flying, order
+from tests.vehicle_sim.autopilot.ground_station import GUIDED, LAND, SYSTEM, GroundStation, flying, order
 from vehicle_sim.vehicle import VehicleConfig
 
 RECORDINGS = Path(__file__).parent / "recordings"
@@ -45,12 +46,16 @@ def replay(station: GroundStation, orders: list[tuple[float, Any]], *, seconds: 
     station.tick(seconds=seconds - (station.ticks - began) * 0.1)
 
 
-def assert_same(ours: list[Line], theirs: list[Line]) -> None:
-    """The same texts, each within LATE_S of its time: neighbors that are nearer may change places."""
+def parameter(name: str, value: float) -> Any:
+    return dialect.MAVLink_param_set_message(SYSTEM, 1, name.encode(), value, 9)
+
+
+def assert_same(ours: list[Line], theirs: list[Line], *, late_s: float = LATE_S) -> None:
+    """The same texts, each within `late_s` of its time: neighbors that are nearer may change places."""
     by_text = [sorted(lines, key=lambda line: (line.text, line.at_s)) for lines in (ours, theirs)]
     assert [line[1:] for line in by_text[0]] == [line[1:] for line in by_text[1]]
     for mine, real in zip(*by_text, strict=True):
-        assert mine.at_s == pytest.approx(real.at_s, abs=LATE_S), (mine, real)
+        assert mine.at_s == pytest.approx(real.at_s, abs=late_s), (mine, real)
 
 
 def test_power_up_25_tries_to_arm_and_ten_idle_seconds() -> None:
@@ -70,3 +75,28 @@ def test_landing_says_how_hard_and_disarms() -> None:
     assert float(ours[0].text.split()[4]) == pytest.approx(float(theirs[0].text.split()[4]), abs=0.03)
     for mine, real in zip(ours, theirs, strict=True):
         assert mine.at_s == pytest.approx(real.at_s - 110.857, abs=LATE_S)
+
+
+def test_ground_station_lost_gps_lost_motors_off() -> None:
+    """Seconds of the recording's boot clock: the last heartbeat of the ground station was 5 s before its failsafe.
+
+    Between them it was in LAND twice, for 2.0 and 2.5 s, and never sank: a failsafe's landing begins with a pause.
+    """
+    began_s = 69.0
+    beat = dialect.MAVLink_heartbeat_message(6, 8, 0, 0, 4, 3)
+    orders = [
+        (69.0, parameter("FS_GCS_ENABLE", 5)), (69.0, beat), (75.0, beat), (76.1, parameter("FS_GCS_ENABLE", 0)),
+        (76.1, order(176, 1, GUIDED)), (76.1, parameter("SIM_GPS_DISABLE", 1)), (84.2, order(176, 1, GUIDED)),
+        (85.2, parameter("SIM_GPS_DISABLE", 0)), (85.7, order(176, 1, GUIDED)), (86.7, order(176, 1, GUIDED)),
+        (87.7, order(400, 0, 21196)),
+    ]  # fmt: skip
+    station = flying()
+    at_s = station.now_s - began_s
+    replay(station, [(when_s - began_s, message) for when_s, message in orders], seconds=21.0)
+    ours = [line for line in said(station, since_s=at_s) if line.at_s > began_s]
+    theirs = recorded("failsafes_and_fall")
+    *ours, hit = ours
+    *theirs, their_hit = theirs
+    assert_same(ours, theirs, late_s=0.5)  # when GPS came back is known to half a second
+    assert hit.at_s == pytest.approx(their_hit.at_s, abs=LATE_S)
+    assert float(hit.text.split()[4]) == pytest.approx(float(their_hit.text.split()[4]), abs=0.5)
