@@ -65,12 +65,12 @@ class Sensors:
         self._stuck_down_m = 0.0
 
     def set_faults(self, faults: Faults, now_s: float) -> None:
-        """From now on. A drift begins, and a reading sticks, when it is first asked for."""
+        """From now on. A drift begins, and a reading sticks, when it is first asked for. None at all are `NONE` itself."""
         if faults.baro_drift_m_s != self.faults.baro_drift_m_s:
             self._since_s = now_s
         if faults.baro_stuck and not self.faults.baro_stuck:
             self._stuck_down_m = self._motion.down_m
-        self.faults = faults
+        self.faults = NONE if faults == NONE else faults
 
     @property
     def has_fix(self) -> bool:

@@ -39,11 +39,15 @@ class LocalWind:
     """The air at one vehicle's place."""
 
     def __init__(self, wind: Wind, *, seed: int, who: int) -> None:
+        self._seed = seed
+        self._who = who
+        self.change(wind)
+
+    def change(self, wind: Wind) -> None:
+        """Another wind from now on."""
         toward = radians(wind.from_deg)
         self.steady_ne_m_s = (-wind.speed_m_s * cos(toward), -wind.speed_m_s * sin(toward))
         self._gust_m_s = wind.gust_m_s
-        self._seed = seed
-        self._who = who
         self._knot = -1
         self._ends = ((0.0, 0.0), (0.0, 0.0))
 

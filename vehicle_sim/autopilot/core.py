@@ -5,14 +5,14 @@ What it has to say is collected in `texts`; `announce` is set when a heartbeat s
 
 from __future__ import annotations
 
-from math import ceil, cos, sin
+from math import ceil
 
 from comms.frames import GeoPoint, enu_from_geo, geo_from_enu, swap_enu_ned
 from vehicle_sim.autopilot.arming import Reminder, complaints
+from vehicle_sim.autopilot.body import Body
 from vehicle_sim.autopilot.boot import Boot
 from vehicle_sim.autopilot.estimate import Estimate
 from vehicle_sim.autopilot.failsafes import Failsafes
-from vehicle_sim.autopilot.faults import SENSOR_NAMES, battery, motor_share, sensor_faults, wind
 from vehicle_sim.autopilot.fence import Fence
 from vehicle_sim.autopilot.guidance import Guidance
 from vehicle_sim.autopilot.mission import Mission, State
@@ -24,17 +24,11 @@ from vehicle_sim.autopilot.setpoints import Setpoint
 from vehicle_sim.autopilot.severity import CRITICAL, INFO, WARNING
 from vehicle_sim.autopilot.steering import TIME_SLACK_S, Steering
 from vehicle_sim.autopilot.sticks import NO_RADIO, TIMEOUT_S, Sticks
-from vehicle_sim.battery import IDLE_SHARE, Charge
-from vehicle_sim.flight import Airframe, Demand, Multirotor
-from vehicle_sim.sensors import Sensors
 from vehicle_sim.vehicle import VehicleConfig
-from vehicle_sim.wind import LocalWind
 
-STEP_S = {"simulated": 0.05, "ideal": 1.0}
 LANDED_AFTER_S = 1.3  # on the ground until the land detector believes it (recorded)
 DISARMED_AFTER_S = 2.1  # on the ground until LAND and RTL disarm (recorded)
 YAW_ALIGNMENT_M = 2.5
-HOVER_THROTTLE = 0.39  # MOT_THST_HOVER: a motor with less than this share of its thrust cannot carry its corner
 HIGHEST_TAKEOFF_M = 10_000.0
 FURTHEST_M = 1e6
 ARMS_IN_AUTO = 1  # a bit of AUTO_OPTIONS
@@ -56,24 +50,14 @@ class Autopilot:
         self.origin = home
         self.system_id = system_id
         self.started_at_s = self.now_s = started_at_s
-        self._seed = seed
-        self.wind = LocalWind(config.wind, seed=seed, who=system_id)
         self.parameters = Parameters(
             system_id=system_id, limits=config.limits, battery=config.battery, wind=config.wind
         )
-        self.parameters.on_change(SENSOR_NAMES, self._disturb_sensors)
-        self.parameters.on_change(("SIM_WIND_",), self._change_wind)
-        self.parameters.on_change(("SIM_BATT_",), self._change_battery)
-        self.parameters.on_change(("SIM_ENGINE_",), self._break_motor)
-        self.airframe: Airframe
-        if config.kind == "ideal":
-            self.airframe = Airframe(limits=config.limits, yaw_rad=heading_rad)
-        else:
-            self.airframe = Multirotor(
-                limits=config.limits, yaw_rad=heading_rad, trimmed_ne_m_s=self.wind.steady_ne_m_s
-            )
-        self.charge = Charge(config.battery)
-        self.sensors = Sensors(motion=self.airframe, seed=seed, who=system_id)
+        self.body = Body(
+            config=config, parameters=self.parameters, heading_rad=heading_rad, latitude_deg=home.latitude_deg,
+            seed=seed, who=system_id, now_s=started_at_s,
+        )  # fmt: skip
+        self.airframe, self.sensors, self.charge = self.body.airframe, self.body.sensors, self.body.charge
         self.estimate = Estimate(
             airframe=self.airframe, sensors=self.sensors, parameters=self.parameters, now_s=started_at_s
         )
@@ -93,7 +77,6 @@ class Autopilot:
         self.failsafes = Failsafes()
         self.announce = False
         self.home_news = False  # home or origin was just set: the link sends both unasked
-        self._step_s = STEP_S[config.kind]
         self._idle_since_s = started_at_s
         self._reminder = Reminder(started_at_s=started_at_s)
         self._yaw_aligned = False
@@ -232,14 +215,14 @@ class Autopilot:
         self._boot(now_s)
         if self.now_s > self._sticks_until_s:
             self.guidance.steering.sticks = NO_RADIO
-        steps = max(1, ceil(span_s / self._step_s - 1e-6))
+        steps = max(1, ceil(span_s / self.body.step_s - 1e-6))
         dt_s = span_s / steps
         began_s = self.now_s
         for step in range(steps):
             self.now_s = began_s + step * dt_s
             self._fly(dt_s)
         self.now_s = now_s
-        self._drain(span_s)
+        self.body.drain(span_s, armed=self.armed, now_s=now_s)
         if self.flying:
             self.guidance.drop_crumb()
         self._watch_ground()
@@ -256,19 +239,6 @@ class Autopilot:
     def say(self, severity: int, text: str) -> None:
         self.texts.append((severity, text))
 
-    def _disturb_sensors(self) -> None:
-        self.sensors.set_faults(sensor_faults(self.parameters, self.origin.latitude_deg), self.now_s)
-        self.estimate.disturb(self.now_s)
-
-    def _change_wind(self) -> None:
-        self.wind = LocalWind(wind(self.parameters), seed=self._seed, who=self.system_id)
-
-    def _change_battery(self) -> None:
-        self.charge.supply(**battery(self.parameters))
-
-    def _break_motor(self) -> None:
-        self.airframe.uncontrolled = motor_share(self.parameters) < HOVER_THROTTLE
-
     def _boot(self, now_s: float) -> None:
         had_origin = self.boot.stage.origin
         for text in self.boot.advance(now_s - self.started_at_s):
@@ -277,43 +247,18 @@ class Autopilot:
             self.home_news = True
 
     def _fly(self, dt_s: float) -> None:
-        frame = self.airframe
-        demand = self.guidance.demand(self.now_s) if self.armed and not self.charge.empty else None
+        """One step: what guidance wants, as the estimate turns it, moves the body; then the estimate follows."""
+        demand = self.guidance.demand(self.now_s) if self.armed else None
         if self.guidance.spooled(self.now_s):
             self.flying = True
-        if frame.on_ground and demand is None:
-            if not self.estimate.exact:
-                self.estimate.advance(dt_s, self.now_s + dt_s)
+        if not self.airframe.on_ground or demand is not None:
+            self.body.move(dt_s, self.estimate.steered(demand) if demand is not None else None, self.now_s)
+            if self.airframe.impact_m_s is not None:
+                self._idle_since_s = self.now_s + dt_s
+                self.say(INFO, f"SIM Hit ground at {self.airframe.impact_m_s:.6g} m/s")
+        elif self.estimate.exact:
             return
-        if demand is not None and not self.estimate.exact:
-            demand = self._believed(demand)
-        frame.step(dt_s, demand, self.wind.at(self.now_s))
         self.estimate.advance(dt_s, self.now_s + dt_s)
-        if frame.impact_m_s is not None:
-            self._idle_since_s = self.now_s + dt_s
-            self.say(INFO, f"SIM Hit ground at {frame.impact_m_s:.6g} m/s")
-
-    def _believed(self, demand: Demand) -> Demand:
-        """What the airframe does when its autopilot believes its estimate: what it thinks is missing, where it thinks.
-
-        Without a position there is nothing to hold: it stays level.
-        """
-        if not self.estimate.has_position:
-            return demand._replace(level=True)
-        frame, estimate = self.airframe, self.estimate
-        cosine, sine = cos(estimate.heading_error_rad), sin(estimate.heading_error_rad)
-        north, east = demand.north_m_s - estimate.north_m_s, demand.east_m_s - estimate.east_m_s
-        return demand._replace(
-            north_m_s=frame.north_m_s + cosine * north + sine * east,
-            east_m_s=frame.east_m_s + cosine * east - sine * north,
-            down_m_s=frame.down_m_s + demand.down_m_s - estimate.down_m_s,
-        )
-
-    def _drain(self, span_s: float) -> None:
-        effort = 0.0
-        if self.armed:
-            effort = IDLE_SHARE if self.airframe.on_ground else self.airframe.effort
-        self.charge.drain(effort=effort, dt_s=span_s)
 
     def _watch_ground(self) -> None:
         """Notice takeoff and landing, and disarm what has been on the ground for long enough."""

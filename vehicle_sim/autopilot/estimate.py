@@ -7,11 +7,11 @@ sensors tell the truth and no error is left, the estimate is the truth to the la
 
 from __future__ import annotations
 
-from math import hypot
+from math import cos, hypot, sin
 from typing import NamedTuple
 
 from vehicle_sim.autopilot.parameters import Parameters
-from vehicle_sim.flight import Airframe, FlightLimits, Motion, wrap_pi
+from vehicle_sim.flight import Airframe, Demand, FlightLimits, Motion, wrap_pi
 from vehicle_sim.sensors import NONE, Sensors
 
 LOST_AFTER_S = 7.0  # without an accepted fix: no position any more (recorded)
@@ -58,11 +58,7 @@ class Estimate(Motion):
     @property
     def exact(self) -> bool:
         """Whether it is the truth, to the last bit."""
-        return self._exact
-
-    @property
-    def heading_error_rad(self) -> float:
-        return self._heading_error_rad
+        return self._exact and self._sensors.faults is NONE
 
     @property
     def attitude_rad(self) -> tuple[float, float]:
@@ -76,17 +72,10 @@ class Estimate(Motion):
     def set_limits(self, limits: FlightLimits) -> None:
         self._airframe.set_limits(limits)
 
-    def disturb(self, now_s: float) -> None:
-        """The sensors have other faults from now on."""
-        if self._exact:
-            self._exact = False
-            self._accepted_at_s = self._good_at_s = now_s
-            self._bad_at_s = now_s - TRUST_AFTER_S
-
     def advance(self, dt_s: float, now_s: float) -> None:
         """The airframe has moved by a step that ends at `now_s`."""
         frame = self._airframe
-        if not self._exact:
+        if not self.exact:
             self._estimate(dt_s, now_s)
         if self._exact:
             self.north_m, self.east_m, self.down_m = frame.north_m, frame.east_m, frame.down_m
@@ -101,8 +90,29 @@ class Estimate(Motion):
         self.yaw_rate_rad_s = frame.yaw_rate_rad_s
         self.on_ground = frame.on_ground
 
+    def steered(self, demand: Demand) -> Demand:
+        """What the airframe is asked for when its autopilot believes this: what seems to be missing, where it seems.
+
+        Without a position there is nothing to hold: it stays level.
+        """
+        if self.exact:
+            return demand
+        if not self.has_position:
+            return demand._replace(level=True)
+        frame, turned_rad = self._airframe, self._heading_error_rad
+        north, east = demand.north_m_s - self.north_m_s, demand.east_m_s - self.east_m_s
+        return demand._replace(
+            north_m_s=frame.north_m_s + cos(turned_rad) * north + sin(turned_rad) * east,
+            east_m_s=frame.east_m_s + cos(turned_rad) * east - sin(turned_rad) * north,
+            down_m_s=frame.down_m_s + demand.down_m_s - self.down_m_s,
+        )
+
     def _estimate(self, dt_s: float, now_s: float) -> None:
         """Let the errors grow and be corrected for one step."""
+        if self._exact:
+            self._exact = False
+            self._accepted_at_s = self._good_at_s = now_s
+            self._bad_at_s = now_s - TRUST_AFTER_S
         position, velocity = self._fuse_gps(dt_s, now_s)
         height = self._fuse_baro(dt_s, now_s)
         compass = self._fuse_compass(dt_s, now_s)
@@ -111,7 +121,7 @@ class Estimate(Motion):
             max(CALM.compass, compass),
         )  # fmt: skip
         self._judge(max(position, velocity), now_s)
-        if self._sensors.faults == NONE and self.has_position and not self.glitching:
+        if self._sensors.faults is NONE and self.has_position and not self.glitching:
             self._settle()
 
     def _settle(self) -> None:

@@ -56,7 +56,7 @@ def global_position_int(pilot: Autopilot) -> Any:
 def vfr_hud(pilot: Autopilot) -> Any:
     belief = pilot.estimate
     ground_m_s = hypot(belief.north_m_s, belief.east_m_s)
-    wind_north, wind_east = pilot.wind.steady_ne_m_s
+    wind_north, wind_east = pilot.body.wind.steady_ne_m_s
     air_m_s = hypot(belief.north_m_s - wind_north, belief.east_m_s - wind_east)
     return dialect.MAVLink_vfr_hud_message(
         air_m_s, ground_m_s, int(heading_deg(pilot)) % 360, round(100.0 * throttle(pilot)),

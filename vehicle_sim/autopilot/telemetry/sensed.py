@@ -10,7 +10,7 @@ from pymavlink.dialects.v20 import ardupilotmega as dialect
 from comms.frames import GeoPoint
 from vehicle_sim.autopilot.core import Autopilot
 from vehicle_sim.autopilot.telemetry.fields import boot_ms, i16, i32, place, place_of, u16, wire_place
-from vehicle_sim.flight import GRAVITY_M_S2
+from vehicle_sim.flight import GRAVITY_M_S2, wrap_pi
 
 WRONG_FIX_DEG = (-0.49275, -0.08884)  # how far off the first fix was
 NO_FIX, FEW_SATELLITES = 1, 3  # GPS_RAW_INT while SIM_GPS_DISABLE is set (recorded)
@@ -94,7 +94,9 @@ def scaled_pressure(pilot: Autopilot) -> Any:
 
 
 def ahrs(pilot: Autopilot) -> Any:
-    return dialect.MAVLink_ahrs_message(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, abs(pilot.estimate.heading_error_rad))
+    return dialect.MAVLink_ahrs_message(
+        0.0, 0.0, 0.0, 0.0, 0.0, 0.0, abs(wrap_pi(pilot.estimate.yaw_rad - pilot.airframe.yaw_rad))
+    )
 
 
 def ahrs2(pilot: Autopilot) -> Any:
@@ -117,7 +119,7 @@ def simstate(pilot: Autopilot) -> Any:
 
 
 def wind(pilot: Autopilot) -> Any:
-    north, east = pilot.wind.steady_ne_m_s
+    north, east = pilot.body.wind.steady_ne_m_s
     return dialect.MAVLink_wind_message(degrees(atan2(-east, -north)), hypot(north, east), 0.0)
 
 
