@@ -65,7 +65,7 @@ class Sensors:
         self._stuck_down_m = 0.0
 
     def set_faults(self, faults: Faults, now_s: float) -> None:
-        """From now on. A drift begins, and a reading sticks, when it is first asked for. None at all are `NONE` itself."""
+        """From now on. A drift begins and a reading sticks when it is first asked for. No faults are `NONE` itself."""
         if faults.baro_drift_m_s != self.faults.baro_drift_m_s:
             self._since_s = now_s
         if faults.baro_stuck and not self.faults.baro_stuck:

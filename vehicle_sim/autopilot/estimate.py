@@ -75,7 +75,7 @@ class Estimate(Motion):
     def advance(self, dt_s: float, now_s: float) -> None:
         """The airframe has moved by a step that ends at `now_s`."""
         frame = self._airframe
-        if not self.exact:
+        if not self._exact or self._sensors.faults is not NONE:
             self._estimate(dt_s, now_s)
         if self._exact:
             self.north_m, self.east_m, self.down_m = frame.north_m, frame.east_m, frame.down_m

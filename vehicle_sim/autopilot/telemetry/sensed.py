@@ -94,9 +94,8 @@ def scaled_pressure(pilot: Autopilot) -> Any:
 
 
 def ahrs(pilot: Autopilot) -> Any:
-    return dialect.MAVLink_ahrs_message(
-        0.0, 0.0, 0.0, 0.0, 0.0, 0.0, abs(wrap_pi(pilot.estimate.yaw_rad - pilot.airframe.yaw_rad))
-    )
+    off_rad = wrap_pi(pilot.estimate.yaw_rad - pilot.airframe.yaw_rad)
+    return dialect.MAVLink_ahrs_message(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, abs(off_rad))
 
 
 def ahrs2(pilot: Autopilot) -> Any:

@@ -43,6 +43,7 @@ FENCE_BREACH = {Border.NONE: 0, Border.ALT_MIN: 1, Border.ALT_MAX: 2, Border.CIR
 VERSION_4_5_5 = 0x040505FF
 BOOTED_AT_UNIX_S = 1_767_225_600  # 2026-01-01: the mission clock has no date, GPS time must have one
 CENTER_US, LOW_US, HALF_US = 1500, 1000, 500  # of a remote control
+SLOWEST_US, FASTEST_US = 1247.0, 1950  # motors of an armed vehicle: 1587 at the 34 % of a hover (recorded)
 SWITCHES_US = (1800, 1000, 1000, 1800)  # its channels 5 to 8 (recorded)
 
 
@@ -156,9 +157,8 @@ def meminfo(pilot: Autopilot) -> Any:
 
 
 def servo_output_raw(pilot: Autopilot) -> Any:
-    """Four motors alike: 1000 us disarmed, 1587 hovering (recorded)."""
-    motor_us = round(1000.0 + 1000.0 * (throttle(pilot) + 0.247)) if pilot.armed else 1000
-    motor_us = min(1950, motor_us)
+    """Four motors alike."""
+    motor_us = min(FASTEST_US, round(SLOWEST_US + 1000.0 * throttle(pilot))) if pilot.armed else LOW_US
     return dialect.MAVLink_servo_output_raw_message(boot_ms(pilot) * 1000 & 0xFFFFFFFF, 0, *[motor_us] * 4, 0, 0, 0, 0)
 
 
