@@ -56,7 +56,7 @@ def enter_first(pilot: Autopilot, modes: tuple[Mode, ...]) -> None:
 def pause_landing(pilot: Autopilot) -> None:
     """If it lands now: not at once, as every landing that a failsafe began (recorded; a fence's does not wait)."""
     if isinstance(pilot.guidance.navigator, Land):
-        pilot.guidance.navigator.pause()
+        pilot.guidance.navigator.linger()
 
 
 def fail(pilot: Autopilot, what: str, action: Action) -> None:

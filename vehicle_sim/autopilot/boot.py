@@ -81,6 +81,10 @@ class Boot:
         scale = boot_s / READY_S
         self._texts = [(at_s * scale, text.format(field_elevation_m=field_elevation_m)) for at_s, text in TEXTS]
         self._starts_s = [stage.from_s * scale for stage in STAGES]
+        self.restart()
+
+    def restart(self) -> None:
+        """Power-on, again."""
         self._said = 0
         self.stage = STAGES[0]
 

@@ -26,6 +26,10 @@ class Breadcrumbs:
         self._trail = [home_ned_m]
         self.active = True
 
+    def forget(self) -> None:
+        self._trail.clear()
+        self.active = False
+
     def drop(self, place_ned_m: Vec3, *, apart_m: float, most: int) -> bool:
         """Leave `place_ned_m` behind if it is `apart_m` from the last. False: no room, the trail is given up."""
         if not self.active or _squared(place_ned_m, self._trail[-1]) < apart_m * apart_m:

@@ -13,15 +13,22 @@ from typing import Any, NamedTuple
 
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
+from comms.frames import geo_from_enu, swap_enu_ned
 from vehicle_sim.autopilot.core import Autopilot
 from vehicle_sim.autopilot.modes import Mode
+from vehicle_sim.autopilot.navigation.auto import yaw_of
+from vehicle_sim.autopilot.plans.item import Item
+from vehicle_sim.autopilot.setpoints import Setpoint
 from vehicle_sim.autopilot.severity import INFO
 from vehicle_sim.autopilot.streams import Streams
 from vehicle_sim.autopilot.telemetry import BUILDERS
 from vehicle_sim.autopilot.telemetry.state import CUSTOM_MODE
 
 FORCE_ARM, FORCE_DISARM = 2989.0, 21196.0
-MISSION_CURRENT_ID = 42
+MISSION_CURRENT_ID, VERSION_ID = 42, 148
+CHANGE_MODE = 1  # a flag of DO_REPOSITION
+ABOVE_SEA, FRAMES = 0, frozenset({0, 3, 5, 6})  # MAV_FRAME: above sea level or home, each with an _INT number
+FURTHEST_M = 1e5
 LONGEST_PERIOD_US = 2**31 - 1
 
 
@@ -40,7 +47,18 @@ class Request(NamedTuple):
     pilot: Autopilot
     streams: Streams
     params: tuple[float, ...]
+    frame: int | None  # of a COMMAND_INT, whose place is in degrees times 1e7; None: a COMMAND_LONG, in degrees
     replies: list[Any]
+
+    @property
+    def item(self) -> Item | None:
+        """Parameters 5 to 7 as a place; None if they are no place on the globe."""
+        x, y, z = self.params[4:7]
+        scale = 1e7 if self.frame is None else 1.0
+        frame = ABOVE_SEA if self.frame is None else self.frame
+        if not (abs(x) * scale <= 9e8 and abs(y) * scale <= 1.8e9 and abs(z) <= FURTHEST_M) or frame not in FRAMES:
+            return None
+        return Item(0, frame, x=round(x * scale), y=round(y * scale), z=z)
 
     def number(self, index: int) -> int:
         """Parameter `index` (from 1) as an integer; -1 if it is none."""
@@ -141,6 +159,75 @@ def _no_message(request: Request, message_id: int, result: Result) -> Result:
     return result
 
 
+def _reposition(request: Request) -> Result:
+    """Only as COMMAND_INT (recorded). Parameter 2, bit 1: change to GUIDED for it."""
+    pilot, item = request.pilot, request.item
+    if request.frame is None:
+        return Result.UNSUPPORTED
+    if pilot.mode is not Mode.GUIDED and not (request.number(2) > 0 and request.number(2) & CHANGE_MODE):
+        return Result.DENIED
+    if item is None or not (item.x or item.y):
+        return Result.DENIED
+    if not pilot.set_mode(Mode.GUIDED):
+        return Result.FAILED
+    goal_ned_m = pilot.guidance.steering.ned_from_item(item)
+    pilot.guidance.follow(Setpoint(position_ned_m=goal_ned_m), pilot.now_s)
+    return Result.ACCEPTED
+
+
+def _condition_yaw(request: Request) -> Result:
+    degrees, relative = request.params[0], request.params[3]
+    if not 0.0 <= degrees <= 360.0 or relative not in (0.0, 1.0):
+        return Result.FAILED
+    nose_rad = request.pilot.guidance.steering.airframe.yaw_rad
+    request.pilot.guidance.turn(yaw_of(request.params, nose_rad=nose_rad))
+    return Result.ACCEPTED
+
+
+def _set_home(request: Request) -> Result:
+    """Parameter 1 is 1, or no place: here."""
+    item, pilot = request.item, request.pilot
+    if request.params[0] == 1.0:
+        return _done(pilot.set_home(None))
+    if item is None:
+        return Result.FAILED
+    if not (item.x or item.y):
+        return _done(pilot.set_home(None))
+    steering = pilot.guidance.steering
+    north_m, east_m, down_m = steering.ned_from_item(item, steering.home_ned_m)
+    return _done(pilot.set_home(geo_from_enu(pilot.origin, swap_enu_ned((north_m, east_m, down_m)))))
+
+
+def _terminate(request: Request) -> Result:
+    """DO_FLIGHTTERMINATION: motors off, wherever it is."""
+    return _done(request.params[0] > 0.5 and request.pilot.disarm(forced=True))
+
+
+def _pause_or_continue(request: Request) -> Result:
+    what = request.params[0]
+    if what not in (0.0, 1.0):
+        return Result.DENIED
+    paused = what == 0.0
+    if request.pilot.guidance.pause(paused):
+        return Result.ACCEPTED
+    request.pilot.say(INFO, "Failed to pause" if paused else "Failed to resume")
+    return Result.FAILED
+
+
+def _reboot(request: Request) -> Result:
+    """Parameter 1: 1 reboots, 3 into the bootloader, which is no different here."""
+    if request.params[0] not in (1.0, 3.0):
+        return Result.UNSUPPORTED
+    return _done(request.pilot.reboot())
+
+
+def _tell_capabilities(request: Request) -> Result:
+    if request.params[0] != 1.0:
+        return Result.DENIED
+    request.replies.append(BUILDERS[VERSION_ID](request.pilot))
+    return Result.ACCEPTED
+
+
 def _fence_enable(request: Request) -> Result:
     switch = request.params[0]
     if switch not in (0.0, 1.0):
@@ -168,14 +255,21 @@ COMMANDS: dict[int, Handler] = {
     20: _return_to_launch,  # NAV_RETURN_TO_LAUNCH
     21: _land,  # NAV_LAND
     22: _takeoff,  # NAV_TAKEOFF
+    115: _condition_yaw,  # CONDITION_YAW
     176: _do_set_mode,  # DO_SET_MODE
     178: _change_speed,  # DO_CHANGE_SPEED
+    179: _set_home,  # DO_SET_HOME
+    185: _terminate,  # DO_FLIGHTTERMINATION
+    192: _reposition,  # DO_REPOSITION
+    193: _pause_or_continue,  # DO_PAUSE_CONTINUE
     207: _fence_enable,  # DO_FENCE_ENABLE
     224: _set_mission_current,  # DO_SET_MISSION_CURRENT
+    246: _reboot,  # PREFLIGHT_REBOOT_SHUTDOWN
     300: _mission_start,  # MISSION_START
     400: _arm_disarm,  # COMPONENT_ARM_DISARM
     410: _get_home,  # GET_HOME_POSITION
     510: _get_message_interval,  # GET_MESSAGE_INTERVAL
     511: _set_message_interval,  # SET_MESSAGE_INTERVAL
     512: _request_message,  # REQUEST_MESSAGE
+    520: _tell_capabilities,  # REQUEST_AUTOPILOT_CAPABILITIES
 }

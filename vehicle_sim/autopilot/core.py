@@ -76,6 +76,7 @@ class Autopilot:
         self.flying = False  # the autopilot's belief: from the spool-up until the land detector
         self.failsafes = Failsafes()
         self.announce = False
+        self.restarted = False  # a reboot: every link forgets what it was asked for
         self.home_news = False  # home or origin was just set: the link sends both unasked
         self._idle_since_s = started_at_s
         self._reminder = Reminder(started_at_s=started_at_s)
@@ -165,6 +166,26 @@ class Autopilot:
         if not self.boot.stage.origin or not all(abs(x) <= FURTHEST_M for x in ned_m):  # NaN compares false
             return False
         steering.home_ned_m = ned_m
+        self.home_news = True
+        return True
+
+    def reboot(self) -> bool:
+        """Start over where it stands, with the parameters and plans it has. Not while armed.
+
+        Its local frame stays where it was at power-on; a real one would begin a new one here.
+        """
+        if self.armed:
+            return False
+        self.started_at_s = self.now_s
+        self.boot.restart()
+        self.failsafes, self._reminder = Failsafes(), Reminder(started_at_s=self.now_s)
+        self._yaw_aligned = False
+        self.mode = Mode.STABILIZE
+        self.mission.reset()
+        self.guidance.breadcrumbs.forget()
+        self.guidance.steering.home_ned_m = self.guidance.steering.place_ned_m
+        self.guidance.enter(self.mode, self.now_s)
+        self.announce = self.restarted = True
         return True
 
     def fly_item(self, item: Item, there: bool) -> bool:

@@ -16,7 +16,7 @@ from vehicle_sim.autopilot.navigation.pilot import Leveled, Loiter, Manual
 from vehicle_sim.autopilot.navigation.rtl import ReturnHome
 from vehicle_sim.autopilot.navigation.smart_rtl import Retrace
 from vehicle_sim.autopilot.navigation.takeoff import Takeoff
-from vehicle_sim.autopilot.setpoints import Setpoint
+from vehicle_sim.autopilot.setpoints import Attitude, Setpoint
 from vehicle_sim.autopilot.severity import CRITICAL, WARNING
 from vehicle_sim.autopilot.steering import Steering
 from vehicle_sim.flight import Demand
@@ -91,8 +91,24 @@ class Guidance:
 
     def follow(self, setpoint: Setpoint, now_s: float) -> None:
         """A GUIDED setpoint. On the ground and during a takeoff it is ignored, as ArduCopter does."""
-        if isinstance(self.navigator, Guided) and not self.taking_off and not self.steering.airframe.on_ground:
-            self.navigator.follow(setpoint, now_s)
+        if (guided := self._listening) is not None:
+            guided.follow(setpoint, now_s)
+
+    def lean(self, attitude: Attitude, now_s: float) -> None:
+        """A GUIDED attitude, as `follow`."""
+        if (guided := self._listening) is not None:
+            guided.lean(attitude, now_s)
+
+    def turn(self, yaw_rad: float) -> None:
+        """Point the nose there, in GUIDED and in AUTO; a pilot turns other modes."""
+        if isinstance(self.navigator, Auto):
+            self.navigator.turn(yaw_rad)
+        elif (guided := self._listening) is not None:
+            guided.turn(yaw_rad)
+
+    def pause(self, paused: bool) -> bool:
+        """Stop where it is, or go on: GUIDED can, and AUTO on its way to a waypoint."""
+        return self.navigator.pause(paused)
 
     def demand(self, now_s: float) -> Demand | None:
         """What to fly over the step that begins now; None: motors idle."""
@@ -113,6 +129,14 @@ class Guidance:
         apart_m, most = parameters["SRTL_ACCURACY"], int(parameters["SRTL_POINTS"])
         if not self.breadcrumbs.drop(self.steering.place_ned_m, apart_m=apart_m, most=most):
             self.steering.say(WARNING, "SmartRTL deactivated: buffer full")
+
+    @property
+    def _listening(self) -> Guided | None:
+        """GUIDED, in the air and past its takeoff."""
+        guided = self.navigator
+        if not isinstance(guided, Guided) or self.taking_off or self.steering.airframe.on_ground:
+            return None
+        return guided
 
     @property
     def setpoint(self) -> Setpoint:

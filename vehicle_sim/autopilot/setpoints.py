@@ -6,13 +6,14 @@ ArduCopter's mask rule: a vector is ignored if ANY of its three bits is set. A b
 from __future__ import annotations
 
 from enum import IntEnum
-from math import cos, isfinite, sin
+from math import asin, atan2, cos, isfinite, sin, sqrt
 from typing import Any, NamedTuple
 
 from comms.frames import GeoPoint, Vec3, enu_from_geo, swap_enu_ned
 
 POSITION_BITS, VELOCITY_BITS, ACCELERATION_BITS = 0x007, 0x038, 0x1C0
 YAW_BIT, YAW_RATE_BIT = 0x400, 0x800
+THRUST_BIT, ATTITUDE_BIT = 0x40, 0x80  # of SET_ATTITUDE_TARGET
 FURTHEST_M = 1e6
 FASTEST_M_S = 1e3
 FASTEST_TURN_RAD_S = 100.0
@@ -48,6 +49,31 @@ class Setpoint(NamedTuple):
 STOP = Setpoint()
 
 
+class Attitude(NamedTuple):
+    """How to lean in GUIDED, and how to climb: from -1 (as fast down as it may) to 1 (up)."""
+
+    roll_rad: float
+    pitch_rad: float
+    yaw_rad: float
+    climb: float
+
+
+def attitude_target(message: Any) -> Attitude | None:
+    """SET_ATTITUDE_TARGET, whose thrust is a climb rate around 0.5. None: it has no attitude or thrust, or a bad one.
+
+    Body rates alone, which a real ArduCopter flies too, are not flown here.
+    """
+    w, x, y, z = message.q
+    norm = sqrt(w * w + x * x + y * y + z * z) if all(abs(part) <= 2.0 for part in message.q) else 0.0  # NaN is false
+    if message.type_mask & (ATTITUDE_BIT | THRUST_BIT) or not 0.5 < norm < 2.0 or not 0.0 <= message.thrust <= 1.0:
+        return None
+    w, x, y, z = w / norm, x / norm, y / norm, z / norm
+    pitch_rad = asin(max(-1.0, min(1.0, 2.0 * (w * y - z * x))))
+    roll_rad = atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y))
+    yaw_rad = atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+    return Attitude(roll_rad, pitch_rad, yaw_rad, 2.0 * message.thrust - 1.0)
+
+
 def local_setpoint(message: Any, *, position_ned_m: Vec3, yaw_rad: float) -> Setpoint:
     """SET_POSITION_TARGET_LOCAL_NED as a setpoint, for a vehicle at `position_ned_m` with its nose at `yaw_rad`."""
     if message.coordinate_frame not in Frame.__members__.values():
@@ -66,14 +92,14 @@ def local_setpoint(message: Any, *, position_ned_m: Vec3, yaw_rad: float) -> Set
     return _with_yaw(message, position, velocity, yaw_from_rad=yaw_rad if body else 0.0)
 
 
-def global_setpoint(message: Any, *, home: GeoPoint) -> Setpoint:
-    """SET_POSITION_TARGET_GLOBAL_INT as a setpoint, for a vehicle whose local frame starts at `home`."""
+def global_setpoint(message: Any, *, origin: GeoPoint, home: GeoPoint) -> Setpoint:
+    """SET_POSITION_TARGET_GLOBAL_INT as a setpoint, for a vehicle whose local frame starts at `origin`."""
     above_sea = GLOBAL_FRAMES.get(message.coordinate_frame)
     if above_sea is None or not isfinite(message.alt):
         return STOP
     altitude_m = message.alt if above_sea else home.altitude_m + message.alt
     place = GeoPoint(message.lat_int * 1e-7, message.lon_int * 1e-7, altitude_m)
-    vectors = _used_vectors(message, swap_enu_ned(enu_from_geo(home, place)))
+    vectors = _used_vectors(message, swap_enu_ned(enu_from_geo(origin, place)))
     return STOP if vectors is None else _with_yaw(message, *vectors, yaw_from_rad=0.0)
 
 

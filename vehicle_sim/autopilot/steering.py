@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from math import copysign, dist, hypot, sqrt
+from math import copysign, cos, dist, hypot, sin, sqrt
 
 from comms.frames import GeoPoint, Vec3
 from vehicle_sim.autopilot.estimate import Estimate
@@ -17,7 +17,7 @@ from vehicle_sim.autopilot.plans.place import ned_from_item
 from vehicle_sim.autopilot.plans.store import Store
 from vehicle_sim.autopilot.rally import refuge_ned_m
 from vehicle_sim.autopilot.sticks import NO_RADIO, Sticks
-from vehicle_sim.flight import Demand, wrap_pi
+from vehicle_sim.flight import DRAG_1_S, VELOCITY_GAIN_1_S, Demand, wrap_pi
 
 APPROACH_GAIN_1_S = 0.5
 APPROACH_BRAKING = 0.8  # of the acceleration limit
@@ -125,6 +125,23 @@ class Steering:
         way_m = goal_down_m - self.airframe.down_m
         speed = approach_m_s(abs(way_m), gain_1_s=CLIMB_GAIN_1_S, braking_m_s2=CLIMB_BRAKING_M_S2)
         return copysign(speed, way_m)
+
+    def climb_share_m_s(self, share: float) -> float:
+        """The vertical speed (down positive) of a climb asked for from -1 (as fast down as it may) to 1."""
+        limits = self.airframe.limits
+        return -share * (limits.climb_m_s if share > 0.0 else limits.descent_m_s)
+
+    def pushed_m_s(self, forward_m_s2: float, right_m_s2: float) -> tuple[float, float]:
+        """The velocity (north, east) whose pursuit gives such a push, seen from the nose, less what the air takes."""
+        north, east = self.turned(forward_m_s2, right_m_s2)
+        kept = 1.0 - DRAG_1_S / VELOCITY_GAIN_1_S
+        frame = self.airframe
+        return kept * frame.north_m_s + north / VELOCITY_GAIN_1_S, kept * frame.east_m_s + east / VELOCITY_GAIN_1_S
+
+    def turned(self, forward: float, right: float) -> tuple[float, float]:
+        """What the nose sees, as north and east."""
+        cosine, sine = cos(self.airframe.yaw_rad), sin(self.airframe.yaw_rad)
+        return forward * cosine - right * sine, forward * sine + right * cosine
 
     def sink_m_s(self) -> float:
         """A landing's speed: WPNAV_SPEED_DN (or LAND_SPEED_HIGH) above LAND_ALT_LOW, LAND_SPEED below."""

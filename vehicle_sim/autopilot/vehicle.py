@@ -15,8 +15,9 @@ from vehicle_sim.autopilot import parameter_protocol
 from vehicle_sim.autopilot.channel import Channel
 from vehicle_sim.autopilot.commands import Request, run, set_mode
 from vehicle_sim.autopilot.core import Autopilot
+from vehicle_sim.autopilot.courtesies import ANSWERS
 from vehicle_sim.autopilot.plans.desk import ROUTES, Desk
-from vehicle_sim.autopilot.setpoints import global_setpoint, local_setpoint
+from vehicle_sim.autopilot.setpoints import attitude_target, global_setpoint, local_setpoint
 from vehicle_sim.autopilot.sticks import Sticks, manual, overridden
 from vehicle_sim.autopilot.streams import ALL_GROUPS, GROUPS, Streams
 from vehicle_sim.autopilot.telemetry import BUILDERS
@@ -68,19 +69,21 @@ class SimulatedVehicle:
         self._handlers: dict[int, Callable[[Any], None]] = {
             dialect.MAVLINK_MSG_ID_HEARTBEAT: self._on_heartbeat,
             dialect.MAVLINK_MSG_ID_SET_MODE: self._on_set_mode,
-            dialect.MAVLINK_MSG_ID_PARAM_REQUEST_READ: partial(self._on_param, parameter_protocol.read),
-            dialect.MAVLINK_MSG_ID_PARAM_REQUEST_LIST: partial(self._on_param, parameter_protocol.listed),
-            dialect.MAVLINK_MSG_ID_PARAM_SET: partial(self._on_param, parameter_protocol.written),
+            dialect.MAVLINK_MSG_ID_PARAM_REQUEST_READ: partial(self._on_question, parameter_protocol.read),
+            dialect.MAVLINK_MSG_ID_PARAM_REQUEST_LIST: partial(self._on_question, parameter_protocol.listed),
+            dialect.MAVLINK_MSG_ID_PARAM_SET: partial(self._on_question, parameter_protocol.written),
             dialect.MAVLINK_MSG_ID_REQUEST_DATA_STREAM: self._on_data_stream,
             dialect.MAVLINK_MSG_ID_COMMAND_INT: self._on_command_int,
             dialect.MAVLINK_MSG_ID_COMMAND_LONG: self._on_command_long,
             dialect.MAVLINK_MSG_ID_MISSION_SET_CURRENT: self._on_mission_set_current,
             dialect.MAVLINK_MSG_ID_RC_CHANNELS_OVERRIDE: self._on_rc_override,
             dialect.MAVLINK_MSG_ID_MANUAL_CONTROL: self._on_manual_control,
+            dialect.MAVLINK_MSG_ID_SET_ATTITUDE_TARGET: self._on_attitude_target,
             dialect.MAVLINK_MSG_ID_SET_POSITION_TARGET_LOCAL_NED: self._on_local_target,
             dialect.MAVLINK_MSG_ID_SET_POSITION_TARGET_GLOBAL_INT: self._on_global_target,
         }
         self._handlers |= dict.fromkeys(ROUTES, self._on_plan)
+        self._handlers |= {number: partial(self._on_question, answer) for number, answer in ANSWERS.items()}
 
     def tick(self, now_s: float, wire_in: bytes = b"") -> bytes:
         """Take `wire_in` at the time of the last tick, live until `now_s`, and return what it said meanwhile.
@@ -166,12 +169,17 @@ class SimulatedVehicle:
             for channel in self.channels:
                 channel.endpoint.send(message)
 
-    def _command(self, message: Any, params: tuple[float, ...]) -> None:
+    def _command(self, message: Any, params: tuple[float, ...], frame: int | None = None) -> None:
         replies: list[Any] = []
-        request = Request(pilot=self.autopilot, streams=self.streams, params=params, replies=replies)
+        request = Request(pilot=self.autopilot, streams=self.streams, params=params, frame=frame, replies=replies)
         self._acknowledge(message, message.command, int(run(message.command, request)))
         for reply in replies:
             self.endpoint.send(reply)
+        if self.autopilot.restarted:
+            self.autopilot.restarted = False
+            for channel in self.channels:
+                channel.streams = Streams(started_at_s=self.autopilot.now_s)
+            self._on_stream_rates()
 
     def _acknowledge(self, message: Any, command: int, result: int) -> None:
         self.endpoint.send(
@@ -186,7 +194,7 @@ class SimulatedVehicle:
 
     def _on_command_int(self, message: Any) -> None:
         p = message
-        self._command(p, (p.param1, p.param2, p.param3, p.param4, float(p.x), float(p.y), p.z))
+        self._command(p, (p.param1, p.param2, p.param3, p.param4, float(p.x), float(p.y), p.z), p.frame)
 
     def _on_set_mode(self, message: Any) -> None:
         result = set_mode(self.autopilot, message.base_mode, message.custom_mode)
@@ -203,8 +211,13 @@ class SimulatedVehicle:
         self.autopilot.guidance.follow(setpoint, self.autopilot.now_s)
 
     def _on_global_target(self, message: Any) -> None:
-        setpoint = global_setpoint(message, home=self.autopilot.home)
+        setpoint = global_setpoint(message, origin=self.autopilot.origin, home=self.autopilot.home)
         self.autopilot.guidance.follow(setpoint, self.autopilot.now_s)
+
+    def _on_attitude_target(self, message: Any) -> None:
+        attitude = attitude_target(message)
+        if attitude is not None:
+            self.autopilot.guidance.lean(attitude, self.autopilot.now_s)
 
     def _on_plan(self, message: Any) -> None:
         self.desk.handle(message, self.endpoint.send, self.autopilot.now_s)
@@ -236,6 +249,6 @@ class SimulatedVehicle:
         """The rates of the first channel are parameters, too."""
         self.channels[0].streams.follow(self.autopilot.parameters, BUILDERS, self.autopilot.now_s)
 
-    def _on_param(self, answer: Callable[[Autopilot, Any], Iterable[Any]], message: Any) -> None:
+    def _on_question(self, answer: Callable[[Autopilot, Any], Iterable[Any]], message: Any) -> None:
         for reply in answer(self.autopilot, message):
             self.endpoint.send(reply)

@@ -13,7 +13,7 @@ from pymavlink.dialects.v20 import ardupilotmega as dialect
 from comms.mavlink import Endpoint
 from tests.vehicle_sim.autopilot.ground_station import HOME, GroundStation, ready
 from vehicle_sim.autopilot.plans.item import Item, as_float, as_int, received
-from vehicle_sim.autopilot.plans.store import FENCE, KINDS, MISSION, RALLY, polygons_closed
+from vehicle_sim.autopilot.plans.store import FENCE, KINDS, polygons_closed
 
 ACCEPTED, ERROR, UNSUPPORTED_FRAME, UNSUPPORTED, NO_SPACE, INVALID_SEQUENCE, DENIED, CANCELLED = (
     0,
@@ -225,10 +225,10 @@ ANY = st.builds(
 
 @given(item=ANY, kind=st.sampled_from(KINDS))
 def test_any_item_gets_an_answer(item: Item, kind: Any) -> None:
-    assert 0 <= kind.accepts(item, 3) <= 15
-    if kind is FENCE:
+    answer = kind.accepts(item, 3)
+    assert 0 <= answer <= 15
+    if kind is FENCE and answer == ACCEPTED:
         assert polygons_closed((item,)) in (True, False)
-    assert MISSION.number + RALLY.number == 2
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ from math import atan2, copysign, radians
 
 from comms.frames import Vec3
 from vehicle_sim.autopilot.mission import Mission
-from vehicle_sim.autopilot.navigation.legs import LEGS, Leg
+from vehicle_sim.autopilot.navigation.legs import LEGS, Leg, WaypointLeg
 from vehicle_sim.autopilot.navigation.navigator import Navigator
 from vehicle_sim.autopilot.plans import commands
 from vehicle_sim.autopilot.plans.item import Item
@@ -34,6 +34,7 @@ class Auto(Navigator):
         self._side_index = 0
         self._yaw_rad: float | None = None  # what CONDITION_YAW asked for
         self._interest_ned_m: Vec3 | None = None  # what the nose looks at
+        self._paused_ned_m: Vec3 | None = None
         self._stay_ned_m: Vec3 | None = None  # at the end of the mission
         mission.begin(restarts=steering.parameters["MIS_RESTART"] == 1.0)
 
@@ -52,10 +53,22 @@ class Auto(Navigator):
     def spooled(self, now_s: float) -> bool:
         return self._leg is not None and self._leg.spooled(now_s)
 
+    def pause(self, paused: bool) -> bool:
+        """Stop on the way to a waypoint; go on from there."""
+        if paused and not (isinstance(self._leg, WaypointLeg) and not self._leg.there):
+            return False
+        self._paused_ned_m = self.steering.stopping_ned_m() if paused else None
+        return True
+
+    def turn(self, yaw_rad: float) -> None:
+        self._yaw_rad = yaw_rad
+
     def leave(self, now_s: float) -> None:
         self._mission.stop()
 
     def demand(self, now_s: float) -> Demand | None:
+        if self._paused_ned_m is not None:
+            return self.steering.towards(self._paused_ned_m)
         self._go_on(now_s)
         self._do_beside(now_s)
         if self._leg is None:

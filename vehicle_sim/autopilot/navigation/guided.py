@@ -2,28 +2,64 @@
 
 from __future__ import annotations
 
+from math import radians, tan
+
 from vehicle_sim.autopilot.navigation.navigator import Navigator
-from vehicle_sim.autopilot.setpoints import Setpoint
+from vehicle_sim.autopilot.setpoints import STOP, Attitude, Setpoint
 from vehicle_sim.autopilot.steering import TIME_SLACK_S, Steering
-from vehicle_sim.flight import Demand
+from vehicle_sim.flight import GRAVITY_M_S2, Demand
+
+LEVEL = Attitude(0.0, 0.0, 0.0, 0.0)
 
 
 class Guided(Navigator):
-    """Flies the last setpoint: a position for good, a velocity for GUID_TIMEOUT, then it stops where it is."""
+    """Flies the last setpoint: a position for good, a velocity or an attitude for GUID_TIMEOUT, then it stops."""
 
     def __init__(self, steering: Steering, now_s: float) -> None:
         super().__init__(steering, now_s)
         self._heard_at_s = now_s
+        self._attitude: Attitude | None = None
+        self.paused = False
 
     def follow(self, setpoint: Setpoint, now_s: float) -> None:
         self.setpoint = setpoint
+        self._attitude = None
         self._heard_at_s = now_s
+
+    def lean(self, attitude: Attitude, now_s: float) -> None:
+        self.setpoint = STOP
+        self._attitude = attitude
+        self._heard_at_s = now_s
+
+    def turn(self, yaw_rad: float) -> None:
+        """Go on with what it does, nose to `yaw_rad`."""
+        if self.setpoint == STOP:
+            self.setpoint = Setpoint(position_ned_m=self.steering.stopping_ned_m())
+        self.setpoint = self.setpoint._replace(yaw_rad=yaw_rad, yaw_rate_rad_s=None)
+
+    def pause(self, paused: bool) -> bool:
+        self.paused = paused
+        return True
 
     def demand(self, now_s: float) -> Demand:
         steering = self.steering
+        fresh = now_s - self._heard_at_s < steering.parameters["GUID_TIMEOUT"] - TIME_SLACK_S
+        if self._attitude is not None and not self.paused:
+            return self._leaned(self._attitude if fresh else LEVEL)
         position, velocity, yaw_rad, yaw_rate = self.setpoint
+        if self.paused:
+            return Demand()
         if position is not None:
             return steering.towards(position, yaw_rate_rad_s=steering.turn_rad_s(yaw_rad, yaw_rate))
-        if velocity is None or now_s - self._heard_at_s >= steering.parameters["GUID_TIMEOUT"] - TIME_SLACK_S:
+        if velocity is None or not fresh:
             return Demand()
         return Demand(*velocity, steering.turn_rad_s(yaw_rad, yaw_rate))
+
+    def _leaned(self, attitude: Attitude) -> Demand:
+        steering = self.steering
+        tilt_rad = radians(steering.airframe.limits.tilt_deg)
+        forward = -GRAVITY_M_S2 * tan(max(-tilt_rad, min(tilt_rad, attitude.pitch_rad)))
+        right = GRAVITY_M_S2 * tan(max(-tilt_rad, min(tilt_rad, attitude.roll_rad)))
+        north_m_s, east_m_s = steering.pushed_m_s(forward, right)
+        turn_rad_s = 0.0 if attitude is LEVEL else steering.turn_rad_s(attitude.yaw_rad)
+        return Demand(north_m_s, east_m_s, steering.climb_share_m_s(attitude.climb), turn_rad_s)

@@ -19,7 +19,7 @@ class Land(Navigator):
         self._began_s = now_s
         self._pause_s = 0.0
 
-    def pause(self) -> None:
+    def linger(self) -> None:
         """Begin with some seconds at the height it has."""
         self._pause_s = PAUSE_S
 

@@ -32,6 +32,10 @@ class Navigator:
         """Whether a takeoff is past its spool-up: the autopilot counts as flying from here on."""
         return self.taking_off
 
+    def pause(self, paused: bool) -> bool:
+        """Stop, or go on; False if this mode has no pause."""
+        return False
+
     def leave(self, now_s: float) -> None:
         """The mode ends."""
 

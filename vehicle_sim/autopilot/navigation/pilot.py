@@ -6,12 +6,12 @@ so none of them is a "hold" for a ground station.
 
 from __future__ import annotations
 
-from math import cos, hypot, radians, sin, tan
+from math import hypot, radians, tan
 
 from comms.frames import Vec3
 from vehicle_sim.autopilot.navigation.navigator import Navigator
 from vehicle_sim.autopilot.steering import YAW_RATE_MAX_RAD_S, Steering
-from vehicle_sim.flight import DRAG_1_S, GRAVITY_M_S2, VELOCITY_GAIN_1_S, Demand
+from vehicle_sim.flight import GRAVITY_M_S2, Demand
 
 STILL_M_S = 0.5  # slower than this, a loitering vehicle holds its place
 
@@ -26,22 +26,18 @@ class Leveled(Navigator):
     def demand(self, now_s: float) -> Demand | None:
         north_m_s, east_m_s = self._over_ground()
         sticks = self.steering.sticks
-        return Demand(north_m_s, east_m_s, self._down_m_s(), sticks.yaw * YAW_RATE_MAX_RAD_S)
-
-    def _down_m_s(self) -> float:
-        climb, limits = self.steering.sticks.climb(), self.steering.airframe.limits
-        return -climb * (limits.climb_m_s if climb > 0.0 else limits.descent_m_s)
+        return Demand(
+            north_m_s,
+            east_m_s,
+            self.steering.climb_share_m_s(self.steering.sticks.climb()),
+            sticks.yaw * YAW_RATE_MAX_RAD_S,
+        )
 
     def _over_ground(self) -> tuple[float, float]:
-        """The velocity whose pursuit gives the acceleration of this lean, less that of the air."""
-        frame, sticks = self.steering.airframe, self.steering.sticks
-        lean_m_s2 = GRAVITY_M_S2 * tan(radians(frame.limits.tilt_deg))
-        north, east = _turned(sticks.pitch * lean_m_s2, sticks.roll * lean_m_s2, frame.yaw_rad)
-        kept = 1.0 - DRAG_1_S / VELOCITY_GAIN_1_S
-        return (
-            kept * frame.north_m_s + north / VELOCITY_GAIN_1_S,
-            kept * frame.east_m_s + east / VELOCITY_GAIN_1_S,
-        )
+        """As its lean pushes it."""
+        sticks = self.steering.sticks
+        lean_m_s2 = GRAVITY_M_S2 * tan(radians(self.steering.airframe.limits.tilt_deg))
+        return self.steering.pushed_m_s(sticks.pitch * lean_m_s2, sticks.roll * lean_m_s2)
 
 
 class Manual(Leveled):
@@ -66,15 +62,10 @@ class Loiter(Leveled):
         if not sticks.centered:
             self._held_ned_m = None
             speed_m_s = self.steering.parameters["LOIT_SPEED"] / 100.0
-            return _turned(sticks.pitch * speed_m_s, sticks.roll * speed_m_s, frame.yaw_rad)
+            return self.steering.turned(sticks.pitch * speed_m_s, sticks.roll * speed_m_s)
         if self._held_ned_m is None:
             if hypot(frame.north_m_s, frame.east_m_s) > STILL_M_S:
                 return 0.0, 0.0
             self._held_ned_m = self.steering.place_ned_m
         back = self.steering.towards(self._held_ned_m)
         return back.north_m_s, back.east_m_s
-
-
-def _turned(forward: float, right: float, yaw_rad: float) -> tuple[float, float]:
-    cosine, sine = cos(yaw_rad), sin(yaw_rad)
-    return forward * cosine - right * sine, forward * sine + right * cosine
