@@ -1,5 +1,5 @@
-"""The world: simulated autopilots (`autopilot`, `flight`, `wind`, `battery`), targets (`targets`, `herd`, `tracks`),
-and what is seen of them (`sensing`, `world`). Imports `comms` alone.
+"""The world: simulated autopilots (`autopilot`, `flight`, `sensors`, `wind`, `battery`), targets (`targets`, `herd`,
+`tracks`), and what is seen of them (`sensing`, `world`). Imports `comms` alone.
 
 A vehicle boots, on the mission's clock, and says so in MAVLink:
 

@@ -7,8 +7,10 @@
     wire_out = vehicle.tick(now_s, wire_in)  # wire_in acts from the last tick on
     vehicle.truth.position_ned_m             # north, east, down of its own home, meters
 
-Tables to read first: `modes`, `commands`, `parameters`, `streams`, `telemetry` and the `boot` sequence. `core` is the
-autopilot without its wire, `guidance` turns its mode into a demand, `setpoints` reads what a ground station asks for.
+Tables to read first: `modes`, `commands`, `parameters.csv`, `streams`, `telemetry`, `arming`, `actions` and the `boot`
+sequence. `core` is the autopilot without its wire, `guidance` turns its mode into a demand, `setpoints` reads what a
+ground station asks for. `body` is the machine underneath and `faults` how SIM_* parameters break it; `estimate` is what
+the autopilot believes of it, and `failsafes`, `battery_failsafe`, `ekf_check` and `crash_check` watch over both.
 """
 
 from vehicle_sim.autopilot.vehicle import SimulatedVehicle

@@ -97,14 +97,14 @@ class Estimate(Motion):
         """
         if self.exact:
             return demand
+        frame, turned_rad = self._airframe, self._heading_error_rad
+        demand = demand._replace(down_m_s=frame.down_m_s + demand.down_m_s - self.down_m_s)
         if not self.has_position:
             return demand._replace(level=True)
-        frame, turned_rad = self._airframe, self._heading_error_rad
         north, east = demand.north_m_s - self.north_m_s, demand.east_m_s - self.east_m_s
         return demand._replace(
             north_m_s=frame.north_m_s + cos(turned_rad) * north + sin(turned_rad) * east,
             east_m_s=frame.east_m_s + cos(turned_rad) * east - sin(turned_rad) * north,
-            down_m_s=frame.down_m_s + demand.down_m_s - self.down_m_s,
         )
 
     def _estimate(self, dt_s: float, now_s: float) -> None:
@@ -136,8 +136,9 @@ class Estimate(Motion):
         """How far off the position and the velocity are, over what would be rejected."""
         place, speed = self._error_ned_m, self._error_ned_m_s
         if not self._sensors.has_fix:
-            self._drift(dt_s, now_s)
             self.has_position = self.has_position and now_s - self._accepted_at_s < LOST_AFTER_S
+            if self.has_position:
+                self._drift(dt_s, now_s)
             return 0.0, 0.0
         gps, gps_m_s = self._sensors.gps_error_ned_m(now_s), self._sensors.faults.gps_velocity_error_ne_m_s
         off_m = (gps[0] - place[0], gps[1] - place[1])
