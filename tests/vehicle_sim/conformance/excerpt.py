@@ -96,6 +96,11 @@ def main(directory: Path) -> None:
             writer = csv.writer(out, lineterminator="\n")
             writer.writerow(("time_s", *excerpt.fields))
             writer.writerows(grid)
+    frames = json.loads((directory / "frames_hex.json").read_text())
+    wires = {name: frame["hex"] for name, frame in frames.items() if not name.startswith("_")}
+    for group in ("_acks", "_statustext"):
+        wires |= {f"{group[1:]} {number}": frame["hex"] for number, frame in enumerate(frames[group])}
+    (RECORDINGS / "frames.json").write_text(json.dumps(wires, indent=1) + "\n")
     for said in SAID:
         spoken = texts(directory / f"{said.source}.jsonl.gz", said)
         (RECORDINGS / f"{said.name}.txt").write_text("\n".join(spoken) + "\n")
