@@ -69,7 +69,8 @@ def test_a_mission_from_power_on_to_landed() -> None:
     assert report["faults"] == []
     assert report["duration_s"] == 15.0
     assert report["coverage"] == 1.0  # four over four within 5 m
-    assert report["mavlink"]["bad"] == 0
+    assert report["mavlink"]["bad"] == report["mavlink"]["dropped"] == 0
+    assert report["mavlink"]["vehicles"] == {"received": report["mavlink"]["sent"], "bad": 0, "dropped": 0}
     assert report["radio"]["delivered"] == 4 * 3 * 150
     assert json.loads(as_json(report)) == report
     assert activities(notes.all[-1]) == {Activity.LANDED}
