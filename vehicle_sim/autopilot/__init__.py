@@ -11,6 +11,8 @@ Tables to read first: `modes`, `commands`, `parameters.csv`, `streams`, `telemet
 sequence. `core` is the autopilot without its wire, `guidance` turns its mode into a demand, `setpoints` reads what a
 ground station asks for. `body` is the machine underneath and `faults` how SIM_* parameters break it; `estimate` is what
 the autopilot believes of it, and `failsafes`, `battery_failsafe`, `ekf_check` and `crash_check` watch over both.
+How each mode flies is in `navigation`, one small class each, over the moves of `steering`. `plans` keeps missions,
+fences and rally points and carries them up and down; `mission` is the course through one, `fence` watches the borders.
 """
 
 from vehicle_sim.autopilot.vehicle import SimulatedVehicle

@@ -15,11 +15,10 @@ from vehicle_sim.autopilot.estimate import Estimate
 from vehicle_sim.autopilot.failsafes import Failsafes
 from vehicle_sim.autopilot.fence import Fence
 from vehicle_sim.autopilot.guidance import Guidance
-from vehicle_sim.autopilot.mission import Mission, State
 from vehicle_sim.autopilot.modes import MODES, Mode
 from vehicle_sim.autopilot.parameters import LIMIT_NAMES, Parameters
 from vehicle_sim.autopilot.plans.item import Item
-from vehicle_sim.autopilot.plans.store import KINDS, Store
+from vehicle_sim.autopilot.plans.keeper import Keeper
 from vehicle_sim.autopilot.setpoints import Setpoint
 from vehicle_sim.autopilot.severity import CRITICAL, INFO, WARNING
 from vehicle_sim.autopilot.steering import TIME_SLACK_S, Steering
@@ -63,11 +62,11 @@ class Autopilot:
         )
         self.boot = Boot(boot_s=config.boot_s, field_elevation_m=home.altitude_m)
         self.texts: list[tuple[int, str]] = []
-        self.missions, self.fences, self.rallies = (Store(kind) for kind in KINDS)
-        self.fence = Fence(self.fences)
-        self.mission = Mission(self.missions, say=self.say)
+        self.plans = Keeper(parameters=self.parameters, say=self.say, home=lambda: self.home)
+        self.mission = self.plans.mission
+        self.fence = Fence(self.plans.fences)
         steering = Steering(
-            airframe=self.estimate, parameters=self.parameters, origin=home, rallies=self.rallies, say=self.say
+            airframe=self.estimate, parameters=self.parameters, origin=home, rallies=self.plans.rallies, say=self.say
         )
         self.guidance = Guidance(steering=steering, mission=self.mission)
         self.parameters.on_change(LIMIT_NAMES, self.guidance.retune)
@@ -87,6 +86,11 @@ class Autopilot:
     def has_position(self) -> bool:
         """Whether it knows its place, and trusts that."""
         return self.boot.stage.position and self.estimate.has_position and not self.failsafes.ekf.active
+
+    @property
+    def home(self) -> GeoPoint:
+        """Where RTL goes."""
+        return geo_from_enu(self.origin, swap_enu_ned(self.guidance.steering.home_ned_m))
 
     # What a ground station asks for. Each returns whether it was done.
 
@@ -182,6 +186,7 @@ class Autopilot:
         self._yaw_aligned = False
         self.mode = Mode.STABILIZE
         self.mission.reset()
+        self.mission.complete = False
         self.guidance.breadcrumbs.forget()
         self.guidance.steering.home_ned_m = self.guidance.steering.place_ned_m
         self.guidance.enter(self.mode, self.now_s)
@@ -197,24 +202,6 @@ class Autopilot:
         north_m, east_m, _ = steering.place_ned_m
         self.guidance.follow(Setpoint(position_ned_m=goal if there else (north_m, east_m, goal[2])), self.now_s)
         return True
-
-    # What the keeper of plans asks.
-
-    @property
-    def home(self) -> GeoPoint:
-        return geo_from_enu(self.origin, swap_enu_ned(self.guidance.steering.home_ned_m))
-
-    def may_clear(self, store: Store) -> bool:
-        """Not the mission that is being flown."""
-        return store is not self.missions or self.mission.state is not State.ACTIVE
-
-    def flies_item(self, store: Store, seq: int) -> bool:
-        return store is self.missions and seq == self.mission.current
-
-    def plan_changed(self, store: Store) -> None:
-        self.parameters.tell(store.kind.total, len(store.items))
-        if store is self.missions:
-            self.mission.changed()
 
     def hear_gcs(self) -> None:
         """A heartbeat of the ground station that the failsafe counts."""
@@ -252,13 +239,13 @@ class Autopilot:
         for text in self._reminder.due(self):
             self.say(CRITICAL, text)
 
+    def say(self, severity: int, text: str) -> None:
+        self.texts.append((severity, text))
+
     @property
     def _armable(self) -> bool:
         may_in_auto = int(self.parameters["AUTO_OPTIONS"]) & ARMS_IN_AUTO
         return MODES[self.mode].armable or (self.mode is Mode.AUTO and bool(may_in_auto))
-
-    def say(self, severity: int, text: str) -> None:
-        self.texts.append((severity, text))
 
     def _boot(self, now_s: float) -> None:
         had_origin = self.boot.stage.origin

@@ -85,6 +85,8 @@ class Fence:
             self._mode = pilot.mode
             self._recovers_until_s = pilot.now_s + RECOVERY_S if self.breached else 0.0
         beyond = self.beyond_m(pilot)
+        if not beyond and not self.breached:
+            return
         before, self.breached = self.breached, Border(sum(beyond))
         recovering = pilot.now_s < self._recovers_until_s
         new = {

@@ -26,6 +26,7 @@ CLIMB_BRAKING_M_S2 = 0.52  # recorded: v^2 over twice the way left at the end of
 YAW_GAIN_1_S = 2.0
 YAW_RATE_MAX_RAD_S = 1.05
 FASTEST_M_S = 100.0
+LEAST_REACH_M = 0.05
 TIME_SLACK_S = 1e-6  # a clock that counts tenths is never exact
 
 
@@ -65,6 +66,11 @@ class Steering:
     def height_m(self) -> float:
         """Above home."""
         return self.home_ned_m[2] - self.airframe.down_m
+
+    @property
+    def reach_m(self) -> float:
+        """How near a waypoint is reached."""
+        return max(LEAST_REACH_M, self.parameters["WPNAV_RADIUS"] / 100.0)
 
     def distance_m(self, place_ned_m: Vec3) -> float:
         """Over ground."""

@@ -58,8 +58,7 @@ class SimulatedVehicle:
             seed=seed,
             started_at_s=started_at_s,
         )
-        pilot = self.autopilot
-        self.desk = Desk((pilot.missions, pilot.fences, pilot.rallies), pilot, go=pilot.fly_item)
+        self.desk = Desk(self.autopilot.plans, go=self.autopilot.fly_item)
         self.channels: list[Channel] = []
         self._here = self.open_channel()  # where the message came from that is being handled; the first otherwise
         self.autopilot.parameters.on_change(

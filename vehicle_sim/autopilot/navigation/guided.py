@@ -38,17 +38,18 @@ class Guided(Navigator):
         self.setpoint = self.setpoint._replace(yaw_rad=yaw_rad, yaw_rate_rad_s=None)
 
     def pause(self, paused: bool) -> bool:
+        """Stop where it is, or go on with the setpoint it has."""
         self.paused = paused
         return True
 
     def demand(self, now_s: float) -> Demand:
-        steering = self.steering
-        fresh = now_s - self._heard_at_s < steering.parameters["GUID_TIMEOUT"] - TIME_SLACK_S
-        if self._attitude is not None and not self.paused:
-            return self._leaned(self._attitude if fresh else LEVEL)
-        position, velocity, yaw_rad, yaw_rate = self.setpoint
         if self.paused:
             return Demand()
+        steering = self.steering
+        fresh = now_s - self._heard_at_s < steering.parameters["GUID_TIMEOUT"] - TIME_SLACK_S
+        if self._attitude is not None:
+            return self._leaned(self._attitude if fresh else LEVEL)
+        position, velocity, yaw_rad, yaw_rate = self.setpoint
         if position is not None:
             return steering.towards(position, yaw_rate_rad_s=steering.turn_rad_s(yaw_rad, yaw_rate))
         if velocity is None or not fresh:

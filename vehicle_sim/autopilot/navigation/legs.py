@@ -49,7 +49,7 @@ class Leg(Navigator):
     @property
     def there(self) -> bool:
         """Within WPNAV_RADIUS of the goal."""
-        return self.steering.away_m(self.goal_ned_m) < self.steering.parameters["WPNAV_RADIUS"] / 100.0
+        return self.steering.away_m(self.goal_ned_m) < self.steering.reach_m
 
 
 class TakeoffLeg(Leg):
@@ -139,7 +139,7 @@ class HeightLeg(Leg):
 
     @property
     def _above(self) -> bool:
-        return self.steering.distance_m(self.goal_ned_m) < self.steering.parameters["WPNAV_RADIUS"] / 100.0
+        return self.steering.distance_m(self.goal_ned_m) < self.steering.reach_m
 
 
 class TurnsLeg(Leg):
@@ -163,7 +163,7 @@ class TurnsLeg(Leg):
         self.yaw_rad = self._bearing_rad() + pi
         if not self._on_edge:
             edge = self._edge()
-            self._on_edge = steering.away_m(edge) < steering.parameters["WPNAV_RADIUS"] / 100.0
+            self._on_edge = steering.away_m(edge) < steering.reach_m
             return steering.towards(edge)
         rate_rad_s = abs(steering.parameters["CIRCLE_RATE"]) * pi / 180.0
         rate_rad_s = min(rate_rad_s, steering.airframe.limits.speed_m_s / self._radius_m)

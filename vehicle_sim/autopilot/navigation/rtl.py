@@ -59,9 +59,9 @@ class ReturnHome(Navigator):
 
     @staticmethod
     def _height_m(steering: Steering, refuge_ned_m: Vec3) -> float:
-        """Above home: RTL_ALT, never down from here, no higher than the cone above the goal that RTL_CONE_SLOPE opens.
+        """Above home: RTL_ALT, within the cone above the goal that RTL_CONE_SLOPE opens, FENCE_MARGIN below the ceiling.
 
-        Below the fence's ceiling, by FENCE_MARGIN.
+        Never down from here.
         """
         parameters = steering.parameters
         lowest_m = max(LOWEST_RETURN_M, steering.height_m + max(0.0, parameters["RTL_CLIMB_MIN"] / 100.0))

@@ -46,4 +46,4 @@ class Retrace(Navigator):
             self._next_ned_m = None
 
     def _reached(self, place_ned_m: Vec3) -> bool:
-        return self.steering.away_m(place_ned_m) < self.steering.parameters["WPNAV_RADIUS"] / 100.0
+        return self.steering.away_m(place_ned_m) < self.steering.reach_m

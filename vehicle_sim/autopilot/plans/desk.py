@@ -8,8 +8,9 @@ from typing import Any
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
 from vehicle_sim.autopilot.plans.item import Item, received
-from vehicle_sim.autopilot.plans.store import Answer, Store
-from vehicle_sim.autopilot.plans.transfer import Owner, Send, Transfer, acknowledge
+from vehicle_sim.autopilot.plans.keeper import Keeper
+from vehicle_sim.autopilot.plans.store import Answer
+from vehicle_sim.autopilot.plans.transfer import Send, Transfer, acknowledge
 
 EVERY_PLAN = 255  # MAV_MISSION_TYPE_ALL
 GO_THERE, CHANGE_HEIGHT = 2, 3  # MISSION_ITEM.current: no part of a plan, but an order to GUIDED
@@ -29,8 +30,8 @@ ROUTES: dict[int, Callable[[Transfer, Any, Send, float], None]] = {
 class Desk:
     """All plans of one vehicle on the wire. `go` flies an item at once: the old way to steer GUIDED."""
 
-    def __init__(self, stores: tuple[Store, ...], owner: Owner, *, go: Callable[[Item, bool], bool]) -> None:
-        self._transfers = {store.kind.number: Transfer(store, owner) for store in stores}
+    def __init__(self, keeper: Keeper, *, go: Callable[[Item, bool], bool]) -> None:
+        self._transfers = {store.kind.number: Transfer(store, keeper) for store in keeper.stores}
         self._go = go
 
     def handle(self, message: Any, send: Send, now_s: float) -> None:

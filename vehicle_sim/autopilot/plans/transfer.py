@@ -9,12 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
-from comms.frames import GeoPoint
 from vehicle_sim.autopilot.plans.item import Item, as_float, as_int, home_item, received
+from vehicle_sim.autopilot.plans.keeper import Keeper
 from vehicle_sim.autopilot.plans.store import FENCE, Answer, Store, polygons_closed
 from vehicle_sim.autopilot.severity import INFO, WARNING
 
@@ -23,17 +23,6 @@ GIVE_UP_S = 8.0
 
 Send = Callable[[Any], None]
 Address = tuple[int, int]  # system and component
-
-
-class Owner(Protocol):
-    """Whose plan it is."""
-
-    @property
-    def home(self) -> GeoPoint: ...
-    def say(self, severity: int, text: str) -> None: ...
-    def may_clear(self, store: Store) -> bool: ...
-    def flies_item(self, store: Store, seq: int) -> bool: ...
-    def plan_changed(self, store: Store) -> None: ...
 
 
 @dataclass(slots=True)
@@ -52,9 +41,9 @@ class Upload:
 class Transfer:
     """The protocol of one plan, for all links."""
 
-    def __init__(self, store: Store, owner: Owner) -> None:
+    def __init__(self, store: Store, keeper: Keeper) -> None:
         self.store = store
-        self._owner = owner
+        self._keeper = keeper
         self._upload: Upload | None = None
 
     # Down.
@@ -82,7 +71,7 @@ class Transfer:
             self._acknowledge(send, source, Answer.DENIED)
         elif message.count > self.store.kind.most:
             self._acknowledge(send, source, Answer.NO_SPACE)
-            self._owner.say(WARNING, f"Only {self.store.kind.most} items are supported")
+            self._keeper.say(WARNING, f"Only {self.store.kind.most} items are supported")
         elif message.count == 0:
             self._complete(send, source, ())
         else:
@@ -95,7 +84,7 @@ class Transfer:
         if self._upload is not None:
             self._acknowledge(send, source, Answer.DENIED)
         elif not 0 <= first <= last <= total or last >= self.store.kind.most:
-            self._owner.say(WARNING, "Flight plan update rejected")
+            self._keeper.say(WARNING, "Flight plan update rejected")
             self._acknowledge(send, source, Answer.ERROR)
         else:
             self._begin(source, send, list(self.store.items), first, last, now_s)
@@ -118,9 +107,9 @@ class Transfer:
 
     def cleared(self) -> Answer:
         """Forget the plan, unless an upload or the flight needs it."""
-        if self._upload is not None or not self._owner.may_clear(self.store):
+        if self._upload is not None or not self._keeper.may_clear(self.store):
             return Answer.ERROR
-        self._replace(())
+        self._keeper.replace(self.store, ())
         return Answer.ACCEPTED
 
     def watch(self, now_s: float) -> None:
@@ -129,7 +118,7 @@ class Transfer:
         if upload is None:
             return
         if now_s - upload.heard_at_s > GIVE_UP_S:
-            self._owner.say(WARNING, f"{self.store.kind.name} upload timeout")
+            self._keeper.say(WARNING, f"{self.store.kind.name} upload timeout")
             self._end(upload, Answer.CANCELLED)
         elif now_s - upload.asked_at_s > ASK_AGAIN_S:
             self._ask(upload, now_s)
@@ -166,23 +155,19 @@ class Transfer:
         if self.store.kind is FENCE and not polygons_closed(items):
             self._acknowledge(send, source, Answer.ERROR)
             return
-        self._replace(items)
+        self._keeper.replace(self.store, items)
         if self.store.kind.received:
-            self._owner.say(INFO, self.store.kind.received)
+            self._keeper.say(INFO, self.store.kind.received)
         self._acknowledge(send, source, Answer.ACCEPTED)
-
-    def _replace(self, items: tuple[Item, ...]) -> None:
-        self.store.put(items)
-        self._owner.plan_changed(self.store)
 
     def _give(self, message: Any, send: Send, form: Callable[..., Any]) -> None:
         source, seq, kind = _source(message), message.seq, self.store.kind
         if self._upload is not None:
             self._acknowledge(send, source, Answer.DENIED)
         elif kind.home_first and seq == 0:
-            send(form(home_item(self._owner.home), to=source, seq=0, current=False, kind=kind.number))
+            send(form(home_item(self._keeper.home()), to=source, seq=0, current=False, kind=kind.number))
         elif seq < len(self.store.items):
-            current = self._owner.flies_item(self.store, seq)
+            current = self._keeper.flies_item(self.store, seq)
             send(form(self.store.items[seq], to=source, seq=seq, current=current, kind=kind.number))
         else:
             if kind.home_first:
