@@ -59,7 +59,7 @@ class ReturnHome(Navigator):
 
     @staticmethod
     def _height_m(steering: Steering, refuge_ned_m: Vec3) -> float:
-        """Above home: RTL_ALT, within the cone above the goal that RTL_CONE_SLOPE opens, FENCE_MARGIN below the ceiling.
+        """Above home: RTL_ALT, in the cone above the goal that RTL_CONE_SLOPE opens, FENCE_MARGIN below the ceiling.
 
         Never down from here.
         """
