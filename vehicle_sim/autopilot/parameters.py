@@ -115,7 +115,7 @@ class Parameters:
             "BATT_LOW_VOLT": LOW_SHARE * battery.voltage_v,
             "SIM_BATT_VOLTAGE": battery.voltage_v,
             "SIM_WIND_SPD": wind.speed_m_s,
-            "SIM_WIND_DIR": wind.from_deg,
+            "SIM_WIND_DIR": wind.from_deg % 360.0,
             "SIM_WIND_TURB": wind.gust_m_s,
             "ANGLE_MAX": float(round(100.0 * limits.tilt_deg)),
             "WPNAV_SPEED": 100.0 * limits.speed_m_s,

@@ -14,6 +14,7 @@ from vehicle_sim.autopilot.parameters import ALIASES, HOLDS, INDEX, TABLE
 from vehicle_sim.battery import Battery
 from vehicle_sim.flight import FlightLimits
 from vehicle_sim.vehicle import VehicleConfig
+from vehicle_sim.wind import Wind
 
 ROOM = Path(vehicle_sim.__file__).parent
 
@@ -43,10 +44,15 @@ def test_the_list_is_complete_sorted_and_has_the_recorded_defaults() -> None:
     assert defaults["SYSID_THISMAV"] == 3.0
 
 
-def test_limits_and_battery_are_the_missions() -> None:
+def test_limits_battery_and_wind_are_the_missions() -> None:
     config = VehicleConfig(limits=FlightLimits(speed_m_s=7.0), battery=Battery(capacity_mah=4200.0))
     parameters = ready(config).vehicle.autopilot.parameters
     assert (parameters["WPNAV_SPEED"], parameters["BATT_CAPACITY"]) == (700.0, 4200.0)
+    station = ready(VehicleConfig(wind=Wind(speed_m_s=3.0, from_deg=1e300), battery=Battery(voltage_v=25.2)))
+    heard = station.tick(dialect.MAVLink_param_request_list_message(3, 1))
+    values = {message.param_id: message.param_value for message in heard if message.get_type() == "PARAM_VALUE"}
+    assert (values["SIM_WIND_SPD"], values["BATT_LOW_VOLT"]) == (3.0, 21.0)
+    assert 0.0 <= values["SIM_WIND_DIR"] < 360.0
 
 
 @pytest.mark.parametrize(
