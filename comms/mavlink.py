@@ -15,7 +15,7 @@ from typing import Any
 
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
-from comms.framing import SIGNED_FLAG, START, frame_bytes
+from comms.framing import MAX_FRAME_BYTES, SIGNED_FLAG, START, frame_bytes
 from comms.packing import packed
 from comms.signing import Signing
 
@@ -64,20 +64,24 @@ class Endpoint:
         What does not fit into BYTES_OUT is dropped. Heartbeats have some room of their own: without them a busy party
         would look lost.
         """
+        if self.full and not self._is_vital(message):
+            self.dropped += 1
+            return
         codec = self._packer
         if self.signing is not None:
             codec.signing.timestamp = self.signing.next_stamp()
             frame = message.pack(codec)
         else:
             frame = packed(message, sequence=codec.seq, system_id=self.system_id, component_id=self.component_id)
-        room = BYTES_OF_A_SOURCE if message.get_msgId() == dialect.MAVLINK_MSG_ID_HEARTBEAT else BYTES_OUT
-        if self._waiting_bytes + len(frame) > room:
-            self.dropped += 1
-            return
         self._outbound.append(frame)
         self._waiting_bytes += len(frame)
         codec.seq = (codec.seq + 1) % 256
         self.sent += 1
+
+    @property
+    def full(self) -> bool:
+        """Nothing more fits into this call's batch but a heartbeat: there is no use in asking for more answers."""
+        return self._waiting_bytes > BYTES_OUT - MAX_FRAME_BYTES
 
     def take(self) -> bytes:
         """Everything queued since the last call, in order."""
@@ -122,6 +126,11 @@ class Endpoint:
             messages = self._fair(messages)
         self.received += len(messages)
         return messages
+
+    def _is_vital(self, message: Message) -> bool:
+        """A heartbeat for which the room of the heartbeats is left."""
+        heartbeat = message.get_msgId() == dialect.MAVLINK_MSG_ID_HEARTBEAT
+        return heartbeat and self._waiting_bytes <= BYTES_OF_A_SOURCE - MAX_FRAME_BYTES
 
     def _fair(self, messages: list[Message]) -> list[Message]:
         """The messages without those beyond what one source may send in one call."""

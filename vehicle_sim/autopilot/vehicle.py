@@ -249,5 +249,8 @@ class SimulatedVehicle:
         self.channels[0].streams.follow(self.autopilot.parameters, BUILDERS, self.autopilot.now_s)
 
     def _on_question(self, answer: Callable[[Autopilot, Any], Iterable[Any]], message: Any) -> None:
+        """Answer while there is room: a thousand requests for all parameters cost no more than a few."""
         for reply in answer(self.autopilot, message):
             self.endpoint.send(reply)
+            if self.endpoint.full:
+                break
