@@ -110,7 +110,7 @@ class Checklist:
         return config.altitude_m - ground_up_m
 
     def checks(self, cockpit: Cockpit, now_s: float) -> str:
-        """The vehicle's own pre-arm checks pass; its reasons come as texts."""
+        """The vehicle's own pre-arm checks pass, which look at its mode, too; its reasons come as texts."""
         return "" if cockpit.telemetry.prearm_ok else "waiting for the pre-arm checks"
 
     def guided(self, cockpit: Cockpit, now_s: float) -> str:
@@ -141,4 +141,4 @@ def _has_place(telemetry: Telemetry) -> bool:
 Item = Callable[[Checklist, Cockpit, float], str]  # what it waits for; empty when done
 
 ITEMS_IN_AIR: tuple[Item, ...] = (Checklist.rates, Checklist.position, Checklist.origin)
-ITEMS: tuple[Item, ...] = (*ITEMS_IN_AIR, Checklist.return_altitude, Checklist.checks, Checklist.guided)
+ITEMS: tuple[Item, ...] = (*ITEMS_IN_AIR, Checklist.return_altitude, Checklist.guided, Checklist.checks)

@@ -55,6 +55,11 @@ class ScriptedCopter:
         self._ticks = 0
 
     @property
+    def may_arm(self) -> bool:
+        """Whether its mode is one to arm in."""
+        return True
+
+    @property
     def landed(self) -> bool:
         return self.local_ned_m[2] > -0.05
 
@@ -170,7 +175,7 @@ class ScriptedCopter:
 
     def _tell_slow(self, boot_ms: int) -> None:
         if dialect.MAVLINK_MSG_ID_SYS_STATUS in self.streams:
-            health = HEALTH | (PREARM_BIT if self._ready else 0)
+            health = HEALTH | (PREARM_BIT if self._ready and self.may_arm else 0)
             battery = (12600, 0, 83)
             self.endpoint.send(
                 dialect.MAVLink_sys_status_message(health, health, health, 0, *battery, 0, 0, 0, 0, 0, 0)

@@ -41,6 +41,11 @@ class ScriptedPx4(ScriptedCopter):
         return super().tick(now_s, wire_in, dt_s=dt_s)
 
     @property
+    def may_arm(self) -> bool:
+        """Manual modes want a stick, which it has not."""
+        return self.mode == HOLD
+
+    @property
     def _fresh(self) -> bool:
         return self.now_s - self.setpoint_at_s <= SETPOINT_LIVES_S
 
