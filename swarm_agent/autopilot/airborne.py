@@ -30,7 +30,7 @@ def interruption(cockpit: Cockpit, now_s: float, intent: Intent, *, ours: frozen
     if isinstance(intent, Return | Land):
         return Descent(on_the_spot=isinstance(intent, Land))
     if not telemetry.armed:
-        return MotorsOff(now_s)
+        return _disarmed(cockpit, now_s)
     if telemetry.custom_mode in (ours or {flavor.guided.custom_mode}):
         return None
     mode, why = flavor.mode_name(telemetry.custom_mode), cockpit.reason(now_s)
@@ -151,7 +151,7 @@ class TakenOver(OnTheWay):
         telemetry, flavor = cockpit.telemetry, cockpit.flavor
         self.phase = _phase(cockpit)
         if not telemetry.armed:
-            return MotorsOff(now_s)
+            return _disarmed(cockpit, now_s)
         if cockpit.in_mode(flavor.guided):
             cockpit.say(Level.INFO, f"{flavor.guided.name} again: going on")
             return OnLayer()
@@ -176,12 +176,9 @@ class TakenOver(OnTheWay):
 
 
 class MotorsOff(OnTheWay):
-    """Disarmed without our asking: landed by a failsafe, fallen, or restarted, which the pilot sees to itself.
+    """Disarmed in flight: fallen, or restarted, which the pilot sees to. Which one shows when telemetry flows again."""
 
-    What it was shows when telemetry flows again.
-    """
-
-    phase = Phase.LAND
+    phase = Phase.PREFLIGHT
 
     def __init__(self, since_s: float) -> None:
         self._since_s = since_s
@@ -189,13 +186,21 @@ class MotorsOff(OnTheWay):
     def tick(self, cockpit: Cockpit, now_s: float, intent: Intent) -> Stage:
         """Wait for news of the vehicle."""
         telemetry, config = cockpit.telemetry, cockpit.config
-        if telemetry.custom_mode in cockpit.flavor.ends_flight or isinstance(intent, Return | Land):
+        if isinstance(intent, Return | Land):
             return Descent()
         if telemetry.attitude_at_s is not None and telemetry.attitude_at_s > self._since_s:
             return Failed("disarmed in the air")
         if now_s - self._since_s > config.preflight_limit_s:
             return Failed(f"disarmed, and silent for {config.preflight_limit_s:g} s")
         return self
+
+
+def _disarmed(cockpit: Cockpit, now_s: float) -> Stage:
+    """A failsafe or a person may have landed it, perhaps while the link was down; otherwise something is wrong."""
+    if cockpit.telemetry.custom_mode in cockpit.flavor.ends_flight:
+        return Descent()
+    cockpit.say(Level.ERROR, "the motors are off in flight")
+    return MotorsOff(now_s)
 
 
 def _phase(cockpit: Cockpit) -> Phase:

@@ -72,7 +72,7 @@ class Pilot:
         self._beat(now_s)
         if cockpit.telemetry.autopilot is not None:
             self._streams.tick(cockpit, now_s)
-        self._stage = self._stage.tick(cockpit, now_s, intent)
+        self._enter(self._stage.tick(cockpit, now_s, intent))
         return self.endpoint.take()
 
     @property
@@ -151,6 +151,12 @@ class Pilot:
             )
         )
 
+    def _enter(self, stage: Stage) -> None:
+        """Go on with this stage; that there is nothing to go on with is told."""
+        if stage.failure and not self._stage.failure:
+            self._cockpit.say(Level.ERROR, f"given up: {stage.failure}")
+        self._stage = stage
+
     def _watch_restarts(self, now_s: float) -> None:
         """A restarted vehicle is checked anew, on the ground or in the air; one that restarts over and over is not."""
         restarts, phase = self._cockpit.telemetry.restarts, self._stage.phase
@@ -162,9 +168,9 @@ class Pilot:
         level = Level.WARNING if phase in ON_GROUND else Level.ERROR
         self._cockpit.say(level, "the autopilot has restarted: it is checked anew")
         if restarts > MOST_RESTARTS:
-            self._stage = Failed(f"the autopilot has restarted {restarts} times", bring_down=True)
+            self._enter(Failed(f"the autopilot has restarted {restarts} times", bring_down=True))
         else:
-            self._stage = Preflight(since_s=now_s)
+            self._enter(Preflight(since_s=now_s))
 
     def _watch_link(self, now_s: float) -> None:
         heard_at_s = self._cockpit.telemetry.heartbeat_at_s

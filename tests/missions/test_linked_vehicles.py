@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from types import TracebackType
 from typing import Self
@@ -19,10 +20,11 @@ from missions.flight import Flight
 from missions.load import load_mission
 from missions.metrics import Metrics
 from missions.mission import Mission
-from missions.observation import Observation, Phase
+from missions.observation import Observation, Observer, Phase
 from missions.overrides import Override
 from missions.plan import plan_mission
 from missions.report import Report, make_report
+from tests.missions.test_pilot_flies_vehicle import mode_command
 from vehicle_sim.autopilot import SimulatedVehicle
 from vehicle_sim.vehicle import VehicleConfig
 
@@ -84,11 +86,11 @@ def mission_of(*changes: str) -> Mission:
     return load_mission("quickstart", overrides=[Override(text) for text in (*SMALL, LINKS, *changes)])
 
 
-def fly(mission: Mission, pipes: dict[int, Pipe]) -> tuple[Flight, Log, Report]:
+def fly(mission: Mission, pipes: dict[int, Pipe], *others: Observer) -> tuple[Flight, Log, Report]:
     log, metrics = Log(), Metrics()
     with open_local_bus() as bus:
         flight = Flight(mission, bus, pipes)
-        flight.run(pace=Lockstep(), observers=[metrics, log], stop=lambda: False)
+        flight.run(pace=Lockstep(), observers=[metrics, log, *others], stop=lambda: False)
     return flight, log, make_report(flight, metrics, wall_s=1.0, recording=None)
 
 
@@ -107,6 +109,71 @@ def test_vehicles_elsewhere_fly_the_mission_from_where_they_stand() -> None:
     assert "heartbeat of an ardupilot vehicle, system 120" in log.said(1)
 
 
+class Gremlin:
+    """An observer that does something once, at one tick of the mission."""
+
+    def __init__(self, at_tick: int, what: Callable[[float], None]) -> None:
+        self._at_tick, self._what = at_tick, what
+
+    def observe(self, observation: Observation) -> None:
+        if observation.mission_tick == self._at_tick:
+            self._what(observation.time_s)
+
+
+def activities(log: Log, uid: int) -> list[Activity]:
+    """What an agent was doing, one after the other."""
+    kinds = {Activity.EXPLORE, Activity.FOLLOW, Activity.CALLING, Activity.HELPING}
+    found = ["on duty" if o.statuses[uid].activity in kinds else o.statuses[uid].activity.value for o in log.all]
+    return [here for here, before in zip(found, ["", *found], strict=False) if here != before]
+
+
+def test_a_vehicle_that_is_killed_and_switched_on_again_takes_up_its_mission() -> None:
+    mission = mission_of("duration_s=60")
+    pipes = {0: Pipe(7, 5.0, mission), 1: Pipe(120, -5.0, mission)}
+    flight, log, report = fly(mission, pipes, Gremlin(100, pipes[0].switch_on))
+    assert flight.complete
+    assert activities(log, 0) == ["preparing", "on duty", "preparing", "on duty", "returning", "landed"]
+    assert [(fault["agent"], fault["what"]) for fault in report["faults"]] == [(0, "the motors are off in flight")]
+    assert "the autopilot has restarted: it is checked anew" in log.said(0)
+
+
+def test_a_person_takes_a_vehicle_and_gives_it_back() -> None:
+    mission = mission_of("duration_s=30")
+    pipes = {0: Pipe(7, 5.0, mission), 1: Pipe(120, -5.0, mission)}
+    taken = Gremlin(50, lambda _: pipes[1].station.send(mode_command(17, system_id=120)))
+    given_back = Gremlin(150, lambda _: pipes[1].station.send(mode_command(4, system_id=120)))
+    flight, log, report = fly(mission, pipes, taken, given_back)
+    assert flight.complete
+    again = ["preparing", "on duty"]  # the layer is looked at first
+    assert activities(log, 1) == ["preparing", "on duty", "taken over", *again, "returning", "landed"]
+    held = [o.statuses[1] for o in log.all if o.statuses[1].activity is Activity.TAKEN_OVER]
+    assert {status.flight_mode for status in held} == {"BRAKE"}
+    assert all(status.tags == () for status in held[1:])
+    assert [(fault["agent"], fault["what"]) for fault in report["faults"]] == [(1, "leaves the mission: taken over")]
+
+
+def test_a_link_that_breaks_for_a_while_is_told_and_flown_on() -> None:
+    mission = mission_of("duration_s=40")
+    pipes = {0: Pipe(7, 5.0, mission), 1: Pipe(120, -5.0, mission)}
+
+    def plug(there: bool) -> Callable[[float], None]:
+        return lambda _: setattr(pipes[0], "connected", there)
+
+    flight, log, report = fly(mission, pipes, Gremlin(50, plug(False)), Gremlin(150, plug(True)))
+    assert flight.complete
+    assert activities(log, 0) == ["preparing", "on duty", "lost", "on duty", "returning", "landed"]
+    assert [(fault["agent"], fault["what"]) for fault in report["faults"]] == [(0, "link lost: no heartbeat for 5 s")]
+
+
+def test_a_link_that_stays_broken_does_not_hold_up_the_others() -> None:
+    mission = mission_of()
+    pipes = {0: Pipe(7, 5.0, mission), 1: Pipe(120, -5.0, mission)}
+    flight, log, _ = fly(mission, pipes, Gremlin(50, lambda _: setattr(pipes[0], "connected", False)))
+    assert flight.complete
+    assert [status.activity for status in log.all[-1].statuses] == [Activity.LOST, Activity.LANDED]
+    assert log.all[-1].time_s < 150.0
+
+
 def test_some_vehicles_may_be_simulated() -> None:
     mission = mission_of("vehicle.links=['tcp:127.0.0.1:1', null]")
     flight, _, report = fly(mission, {0: Pipe(9, 5.0, mission)})
@@ -119,7 +186,7 @@ def test_another_vehicle_than_the_one_named_is_left_alone() -> None:
     mission = mission_of("vehicle.links=['tcp:127.0.0.1:1', null]", "vehicle.system_ids=[12, null]")
     pipe = Pipe(7, 5.0, mission)
     _, log, report = fly(mission, {0: pipe})
-    assert report["faults"][0]["what"] == "leaves the mission: lost"
+    assert report["faults"][0]["what"] == "given up: no heartbeat from system 12 in 60 s"
     assert log.all[-1].statuses[0].activity is Activity.LOST
     assert not pipe.vehicle.truth.armed
 

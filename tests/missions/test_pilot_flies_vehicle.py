@@ -265,6 +265,6 @@ class TestNotAsPlanned:
         assert track() == track()
 
 
-def mode_command(custom_mode: int) -> dialect.MAVLink_command_long_message:
+def mode_command(custom_mode: int, *, system_id: int = 4) -> dialect.MAVLink_command_long_message:
     """DO_SET_MODE, as a ground station sends it."""
-    return dialect.MAVLink_command_long_message(4, 1, 176, 0, 1.0, float(custom_mode), 0.0, 0.0, 0.0, 0.0, 0.0)
+    return dialect.MAVLink_command_long_message(system_id, 1, 176, 0, 1.0, float(custom_mode), 0.0, 0.0, 0.0, 0.0, 0.0)
