@@ -17,7 +17,7 @@ test: check
 test-slow: $(VENV)/all.done
 	$(BIN)/python -m pytest -n 2 --dist loadgroup tests
 
-# A million hostile frames: a minute or two. FUZZ="--seed 7 --jobs 4"; a failure names the seed and episode to repeat.
+# A million hostile frames: two to four minutes. FUZZ="--seed 7 --jobs 4"; a failure names the seed and episode to repeat.
 fuzz: $(VENV)/all.done
 	$(BIN)/python -m tests.fuzz $(FUZZ)
 

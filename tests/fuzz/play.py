@@ -44,14 +44,13 @@ def play(episode: Episode, states: Counter[str] | None = None) -> Failure | None
 
 def shrink(episode: Episode, failure: Failure) -> tuple[Episode, Failure]:
     """The same failure with fewer frames, then with fewer shots: halves, quarters and so on are left out in turn."""
-    shots = episode.shots[: failure.shot + 1]
-    smallest, last = episode._replace(shots=shots), failure
-    for cut in (_without_frames, _without_shots):
-        size = max(1, cut(smallest, 0, 0).frames if cut is _without_frames else len(smallest.shots)) // 2
+    smallest, last = episode._replace(shots=episode.shots[: failure.shot + 1]), failure
+    for count, without in ((_frames, _without_frames), (_shots, _without_shots)):
+        size = count(smallest) // 2
         while size:
             start = 0
-            while start < _length(cut, smallest):
-                candidate = cut(smallest, start, start + size)
+            while start < count(smallest):
+                candidate = without(smallest, start, start + size)
                 again = play(candidate)
                 if again is not None and again.what == failure.what:
                     smallest, last = candidate, again
@@ -61,8 +60,12 @@ def shrink(episode: Episode, failure: Failure) -> tuple[Episode, Failure]:
     return smallest, last
 
 
-def _length(cut: object, episode: Episode) -> int:
-    return episode.frames if cut is _without_frames else len(episode.shots)
+def _frames(episode: Episode) -> int:
+    return episode.frames
+
+
+def _shots(episode: Episode) -> int:
+    return len(episode.shots)
 
 
 def _without_frames(episode: Episode, start: int, stop: int) -> Episode:

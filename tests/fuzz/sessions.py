@@ -13,6 +13,7 @@ from typing import Any
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
 from tests.fuzz.hostile import HOME
+from vehicle_sim.autopilot.commands import COMMANDS
 from vehicle_sim.autopilot.modes import Mode
 from vehicle_sim.autopilot.parameters import TABLE
 
@@ -22,6 +23,7 @@ ARM, TAKEOFF, SET_MODE, INTERVAL, REQUEST, START = 400, 22, 176, 511, 512, 300
 GUIDED, AUTO = 4, 3
 WAYPOINT, RTL, LAND, LOITER_TIME, SPEED = 16, 20, 21, 19, 178
 FENCE_CORNER, RALLY_POINT = 5001, 5100
+PLAIN = (0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 2.0, 3.0, 10.0, 90.0, -1.0)
 STREAMED = (1, 2, 24, 30, 32, 33, 74, 85, 147, 193, 245)
 
 
@@ -97,6 +99,11 @@ def _param(name: str, value: float) -> Any:
     return dialect.MAVLink_param_set_message(SYSTEM, 1, name.encode(), value, 9)
 
 
+def orders(rng: Random) -> Turns:
+    """Some of the commands it takes, with numbers that may mean something."""
+    return [[order(rng.choice(list(COMMANDS)), *rng.choices(PLAIN, k=7))] for _ in range(8)]
+
+
 def streams(rng: Random) -> Turns:
     return [[order(INTERVAL, number, rng.choice((-1.0, 0.0, 100_000.0, 1e6)))] for number in rng.sample(STREAMED, 4)]
 
@@ -116,5 +123,5 @@ def lose_the_ground(rng: Random) -> Turns:
 
 SESSIONS: tuple[Callable[[Random], Turns], ...] = (
     wait, take_off, take_off, velocities, velocities, go_to, mission, mission, fence, downloads, parameters, streams,
-    change_mode, come_down, lose_the_ground,
+    orders, change_mode, come_down, lose_the_ground,
 )  # fmt: skip
