@@ -15,6 +15,7 @@ from swarm_agent.fence import encloses
 from vehicle_sim.placement import scatter
 
 _TOLERANCE = 1e-9
+SLOWEST_SETPOINTS_S = 0.4
 MOST_CELLS = 20_000  # of the arena, each as wide as the sensing range; every agent remembers when it was seen
 
 
@@ -141,6 +142,12 @@ def _links_are_for_agents(mission: Mission) -> str | None:
     return f"each link once; {twice[0]} is there twice" if twice else None
 
 
+def _setpoints_come_often(mission: Mission) -> str | None:
+    if mission.vehicle.kind != "link" or mission.tick_s <= SLOWEST_SETPOINTS_S:
+        return None
+    return f"at most {shown(SLOWEST_SETPOINTS_S)} where vehicle.kind is link: a PX4 wants setpoints at more than 2 Hz"
+
+
 def _system_ids_are_for_links(mission: Mission) -> str | None:
     given = len(mission.vehicle.system_ids)
     if given in (0, len(mission.vehicle.links)):
@@ -226,6 +233,7 @@ RULES = (
     Rule("policy.help_lease_s", ("tick_s", "radio.latency_s"), _help_lease_is_renewable),
     Rule("vehicle.limits.speed_m_s", ("agents.speed_m_s",), _vehicles_keep_up),
     Rule("vehicle.links", ("vehicle.kind", "agents.count"), _links_are_for_agents),
+    Rule("tick_s", ("vehicle.kind",), _setpoints_come_often),
     Rule("vehicle.system_ids", ("vehicle.links",), _system_ids_are_for_links),
     Rule("vehicle.wind.speed_m_s", ("vehicle.wind.gust_m_s", "vehicle.limits.speed_m_s"), _vehicles_beat_the_wind),
     Rule("targets.file", (), _tracks_exist),

@@ -81,10 +81,12 @@ class Guard:
         self._spent = False
         self._events: list[Event] = []
 
-    def hear(self, now_s: float, inbox: Iterable[Frame]) -> None:
+    def hear(self, now_s: float, inbox: Sequence[Frame]) -> None:
         """Note where mates are, and forget those that have been silent for `MEMORY_S`."""
         for frame in inbox:
             self._mates[frame.src] = (now_s, frame)
+        if len(self._mates) == len(inbox):
+            return
         silent = [uid for uid, (heard_at_s, _) in self._mates.items() if now_s - heard_at_s > MEMORY_S]
         for uid in silent:
             del self._mates[uid]
@@ -123,11 +125,13 @@ class Guard:
         """The mates on this layer, where they should be by now; half of the gap to each is this agent's."""
         x, y, up = position_m
         found = []
-        for uid, (_, frame) in sorted(self._mates.items()):
-            age_s = max(0.0, now_s - frame.sent_at_s)
+        for uid, (_, frame) in self._mates.items():
             mate, speed = frame.position_m, frame.velocity_m_s
+            if not abs(mate[2] - up) < LEVEL_M:  # NaN fails this, too
+                continue
+            age_s = max(0.0, now_s - frame.sent_at_s)
             dx, dy = mate[0] + age_s * speed[0] - x, mate[1] + age_s * speed[1] - y
-            if abs(mate[2] - up) >= LEVEL_M or not (isfinite(dx) and isfinite(dy)):
+            if not (isfinite(dx) and isfinite(dy)):
                 continue
             distance_m = hypot(dx, dy)
             share_m = (distance_m - self._config.separation_m) / 2.0

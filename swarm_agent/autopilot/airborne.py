@@ -138,16 +138,18 @@ class Engage(OnTheWay):
 class TakenOver(OnTheWay):
     """Somebody else flies, a person or a failsafe: hands off. Guided again, it goes on; landed, it is over.
 
-    A person always wins. Only where the link was lost and the vehicle merely waits in the air is it asked back.
+    A person always wins, at the end of the mission too. Only where the link was lost and the vehicle merely waits in
+    the air is it asked back.
     """
 
     def __init__(self, cockpit: Cockpit) -> None:
         self.phase = _phase(cockpit)
         self._lapsed = cockpit.telemetry.heartbeat_gap_s > GAP_S  # it came about while nobody was heard
         self._errand: Errand | None = None
+        self._said_over = False
 
     def tick(self, cockpit: Cockpit, now_s: float, intent: Intent) -> Stage:
-        """Watch, and honor a wish to come down: a person's hand on the mode switch still beats it."""
+        """Watch."""
         telemetry, flavor = cockpit.telemetry, cockpit.flavor
         self.phase = _phase(cockpit)
         if not telemetry.armed:
@@ -155,8 +157,9 @@ class TakenOver(OnTheWay):
         if cockpit.in_mode(flavor.guided):
             cockpit.say(Level.INFO, f"{flavor.guided.name} again: going on")
             return OnLayer()
-        if isinstance(intent, Return | Land):
-            return Descent(on_the_spot=isinstance(intent, Land) or cockpit.in_mode(flavor.landing))
+        if isinstance(intent, Return | Land) and self.phase is Phase.TAKEN_OVER and not self._said_over:
+            self._said_over = True
+            cockpit.say(Level.WARNING, f"should come down: who flies it may land it, or choose {flavor.guided.name}")
         if flavor.guided_needs_setpoints:  # or nobody could give control back
             cockpit.send(velocity_setpoint(STILL, system_id=cockpit.target, now_s=now_s))
         if self._lapsed and telemetry.custom_mode in flavor.lapses_into:

@@ -59,9 +59,11 @@ class Preflight(OnTheWay):
     def tick(self, cockpit: Cockpit, now_s: float, intent: Intent) -> Stage:
         """Go on with the checklist."""
         telemetry, config = cockpit.telemetry, cockpit.config
-        if isinstance(intent, Return | Land):
-            return Descent(on_the_spot=isinstance(intent, Land)) if telemetry.armed else Done()
         flown = telemetry.armed and telemetry.landed is False
+        if isinstance(intent, Return | Land):
+            if flown and not cockpit.in_mode(cockpit.flavor.guided):
+                return TakenOver(cockpit)
+            return Descent(on_the_spot=isinstance(intent, Land)) if telemetry.armed else Done()
         self._checklist.tick(cockpit, now_s, flown=flown)
         if self._checklist.failure:
             return Failed(self._checklist.failure)

@@ -136,6 +136,14 @@ CASES: dict[str, tuple[str, list[str]]] = {
     "links without the kind": ("name: m\nagents: {count: 1}\nvehicle: {links: ['tcp:127.0.0.1:5760']}\n", [
         ":3: vehicle.links: got a list; allowed: none where vehicle.kind is not link",
     ]),
+    "slow setpoints": (
+        "name: m\ntick_s: 0.5\nagents: {count: 1}\npolicy: {tag_lease_s: 1}\n"
+        "vehicle: {kind: link, links: ['tcp:127.0.0.1:5760']}\n",
+        [
+            ":2: tick_s: got 0.5; "
+            "allowed: at most 0.4 where vehicle.kind is link: a PX4 wants setpoints at more than 2 Hz",
+        ],
+    ),
     "one link for two": (
         "name: m\nagents: {count: 2}\nvehicle: {kind: link, links: ['tcp:127.0.0.1:5760', 'tcp:127.0.0.1:5760']}\n",
         [":3: vehicle.links: got a list; allowed: each link once; tcp:127.0.0.1:5760 is there twice"],

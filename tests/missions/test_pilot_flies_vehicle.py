@@ -224,6 +224,16 @@ class TestNotAsPlanned:
         assert flight.state.phase is Phase.TAKEN_OVER
         assert flight.vehicle.mode_name == "BRAKE"
 
+    def test_a_person_wins_at_the_end_too(self) -> None:
+        flight = Flight().climbed()
+        flight.second.send(mode_command(17))
+        flight.run(Prepare(), seconds=3.0, until=lambda: flight.state.phase is Phase.TAKEN_OVER)
+        flight.run(Return(), seconds=20.0)
+        assert flight.vehicle.mode_name == "BRAKE"
+        assert flight.texts.count("should come down: who flies it may land it, or choose GUIDED") == 1
+        flight.second.send(mode_command(4))
+        flight.ended(Return())
+
     def test_a_link_lost_and_found_in_guided_flight_is_flown_on(self) -> None:
         flight = Flight().climbed().run(Fly((2.0, 0.0)), seconds=2.0)
         flight.cut_s = 8.0
