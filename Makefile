@@ -3,8 +3,9 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 PEERS := .venv-peers
+CLIENTS := .venv-clients
 
-.PHONY: run test test-slow fuzz check format bench bench-vehicles bench-peers clean
+.PHONY: run test test-slow test-clients fuzz check format bench bench-vehicles bench-peers clean
 
 run: $(VENV)/ground.done
 	@mkdir -p out
@@ -16,6 +17,10 @@ test: check
 
 test-slow: $(VENV)/all.done
 	$(BIN)/python -m pytest -n 2 --dist loadgroup tests
+
+# MAVSDK, MAVProxy and mavutil fly simulated vehicles: some minutes. CLIENT="--only mavsdk" for some of them.
+test-clients: $(VENV)/all.done $(CLIENTS)/clients.done
+	$(CLIENTS)/bin/python -m tests.clients --swarm $(BIN)/python $(CLIENT)
 
 # A million hostile frames: two to four minutes. FUZZ="--seed 7 --jobs 4"; a failure names the seed and episode to repeat.
 fuzz: $(VENV)/all.done
@@ -41,7 +46,7 @@ bench-peers: $(VENV)/all.done $(PEERS)/peers.done
 	$(PEERS)/bin/python -m tests.benchmarks.peers.run --study $(BIN)/python
 
 clean:
-	rm -rf $(VENV) $(PEERS) out build dist *.egg-info
+	rm -rf $(VENV) $(PEERS) $(CLIENTS) out build dist *.egg-info
 
 $(BIN)/python:
 	$(PYTHON) -m venv $(VENV)
@@ -57,4 +62,9 @@ $(VENV)/all.done: pyproject.toml | $(BIN)/python
 $(PEERS)/peers.done: tests/benchmarks/peers/requirements.txt
 	$(PYTHON) -m venv $(PEERS)
 	$(PEERS)/bin/pip install --quiet --requirement $<
+	@touch $@
+
+$(CLIENTS)/clients.done: tests/clients/requirements.txt
+	$(PYTHON) -m venv $(CLIENTS)
+	$(CLIENTS)/bin/pip install --quiet --requirement $<
 	@touch $@
