@@ -11,7 +11,8 @@ it back. Sans-io: bytes in, bytes out, time an argument.
 
 Where to look: `state.Phase` is the state table, `ground`, `airborne` and `ending` are its rows (one small class each),
 `preflight` the checklist before arming, `transaction` how a request is sent and answered, `errand` how it is seen
-through, `flavors` where autopilots differ.
+through, `flavors` where autopilots differ. A vehicle that restarts is checked anew (`pilot`); one that somebody else
+flies is left alone until it is given back (`airborne.TakenOver`).
 """
 
 from swarm_agent.autopilot.config import PilotConfig
