@@ -10,9 +10,13 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
+from shutil import rmtree
+from tempfile import mkdtemp
 from typing import NamedTuple
 
 from tests.clients.relay import relay
+from tests.clients.signed_session import PASSPHRASE
 
 SPEED = "3"
 SESSION_S = 240.0
@@ -24,7 +28,7 @@ class Flight(NamedTuple):
 
     Attributes:
         url: how its client names a TCP port. withheld: (message id, name), if any, that does not get through.
-        fails_at: the step that must fail then.
+        fails_at: the step that must fail then. passphrase: what the vehicle's link is signed with.
     """
 
     module: str
@@ -32,6 +36,7 @@ class Flight(NamedTuple):
     boot_s: int = 10
     withheld: tuple[int, str] | None = None
     fails_at: str = ""
+    passphrase: str = ""
 
 
 MAVSDK, MAVUTIL, MAVPROXY = "mavsdk_session", "mavutil_session", "mavproxy_session"
@@ -45,13 +50,19 @@ FLIGHTS = (
     Flight(MAVPROXY, boot_s=60),
     Flight(MAVPROXY, boot_s=60, withheld=(253, "STATUSTEXT"), fails_at="arm refusal"),
     Flight(MAVPROXY, boot_s=60, withheld=(40, "MISSION_REQUEST"), fails_at="mission up"),
+    Flight("signed_session", boot_s=0, passphrase=PASSPHRASE),
 )
 
 
 @contextmanager
-def simulated(python: str, boot_s: int) -> Iterator[str]:
+def simulated(python: str, flight: Flight) -> Iterator[str]:
     """The URL of a vehicle that has just been switched on, in a process of its own."""
-    arguments = ["sim", "--port", "0", "--boot", str(boot_s), "--speed", SPEED]
+    arguments = ["sim", "--port", "0", "--boot", str(flight.boot_s), "--speed", SPEED]
+    key = Path(mkdtemp()) / "key"
+    if flight.passphrase:
+        key.touch(mode=0o600)
+        key.write_text(flight.passphrase)
+        arguments += ["--signing-key", str(key)]
     process = subprocess.Popen([python, "-c", PROGRAM, *arguments], stdout=subprocess.PIPE, text=True)
     try:
         assert process.stdout is not None
@@ -59,13 +70,14 @@ def simulated(python: str, boot_s: int) -> Iterator[str]:
     finally:
         process.terminate()
         process.communicate(timeout=20.0)
+        rmtree(key.parent)
 
 
 def fly(flight: Flight, python: str) -> bool:
     """Whether it went as it must."""
     message_id, name = flight.withheld or (None, "")
     print(f"\n{flight.module}{f' without {name}' if name else ''}", flush=True)
-    with simulated(python, flight.boot_s) as vehicle, relay(vehicle, message_id) as port:
+    with simulated(python, flight) as vehicle, relay(vehicle, message_id) as port:
         code, printed = run(flight.module, flight.url.format(port))
     if not flight.withheld:
         return code == 0
