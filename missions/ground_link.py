@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 
 from comms.mavlink import Endpoint
 from comms.signing import Signing
@@ -103,9 +103,9 @@ def open_ground_link(
     Raises:
         InputError: it cannot be opened.
     """
-    try:
-        transport = transport_of(url).__enter__()
-    except TransportError as error:
-        raise InputError(f"{option}: {error}") from error
-    with transport:
+    with ExitStack() as stack:
+        try:
+            transport = stack.enter_context(transport_of(url))
+        except TransportError as error:
+            raise InputError(f"{option}: {error}") from error
         yield GroundLink(transport, vehicles, key=key)
