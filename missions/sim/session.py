@@ -14,7 +14,7 @@ from missions.ground_link import GroundLink, open_ground_link
 from missions.problems import InputError, did_you_mean
 from missions.sim.options import SimOptions
 from vehicle_sim.autopilot import SimulatedVehicle
-from vehicle_sim.autopilot.parameters import INDEX
+from vehicle_sim.autopilot.parameters import ALIASES, INDEX, Alias
 from vehicle_sim.vehicle import VehicleConfig
 
 STOPPED = 130
@@ -53,9 +53,10 @@ def power_on(options: SimOptions) -> SimulatedVehicle:
     """
     vehicle = FLAVOURS[options.flavour](options)
     for name, value in options.parameters:
-        if name not in INDEX:
-            raise InputError(f"--param: got {name}, which it does not have{did_you_mean(name, INDEX)}")
-        if not vehicle.autopilot.parameters.store(name, value):
+        ours = ALIASES.get(name, Alias(name))
+        if ours.name not in INDEX:
+            raise InputError(f"--param: got {name}, which it does not have{did_you_mean(name, (*INDEX, *ALIASES))}")
+        if not vehicle.autopilot.parameters.store(ours.name, ours.scale * value + ours.offset):
             raise InputError(f"--param: got {name}={value:g}; allowed: another parameter, {name} is read-only")
     return vehicle
 

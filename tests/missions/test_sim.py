@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
+import argparse
 import signal
 import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from math import pi
 from pathlib import Path
 
 import pytest
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
+from comms.frames import GeoPoint
 from comms.mavlink import Endpoint
 from comms.transport import Transport, transport_of
 from missions.cli import BAD_INPUT, STOPPED, main
-from missions.sim.options import FLAVOURS
+from missions.sim.options import FLAVOURS, add_options, sim_options
 from missions.sim.session import FLAVOURS as MAKERS
+from missions.sim.session import power_on
 from tests.comms.test_transport import until
 
 ARGUMENTS = "import sys; from missions.cli import main; sys.exit(main(sys.argv[1:]))"
@@ -103,3 +107,28 @@ def test_bad_input_says_what_is_allowed(arguments: list[str], told: str, capsys:
 
 def test_every_flavour_offered_can_be_made() -> None:
     assert tuple(MAKERS) == FLAVOURS
+
+
+def test_parameters_go_by_old_and_new_names() -> None:
+    parser = argparse.ArgumentParser()
+    add_options(parser)
+    given = ["--param", "RTL_ALT_M=20", "--param", "sysid_mygcs=252", "--home", "47.4,8.5,488,90", "--sysid", "9"]
+    vehicle = power_on(sim_options(parser.parse_args(given))).autopilot
+    assert (vehicle.parameters["RTL_ALT"], vehicle.parameters["SYSID_MYGCS"]) == (2000.0, 252.0)
+    assert (vehicle.system_id, vehicle.home) == (9, GeoPoint(47.4, 8.5, 488.0))
+    assert vehicle.airframe.yaw_rad == pytest.approx(pi / 2)
+
+
+@pytest.mark.parametrize(
+    ("given", "links"),
+    [
+        ([], ("tcpin:127.0.0.1:5760",)),
+        (["--port", "5770"], ("tcpin:127.0.0.1:5770",)),
+        (["--link", "udpout:127.0.0.1:14550"], ("udpout:127.0.0.1:14550",)),
+        (["--link", "pty", "--port", "5760"], ("tcpin:127.0.0.1:5760", "pty")),
+    ],
+)
+def test_it_listens_where_sitl_does_unless_told(given: list[str], links: tuple[str, ...]) -> None:
+    parser = argparse.ArgumentParser()
+    add_options(parser)
+    assert sim_options(parser.parse_args(given)).links == links
