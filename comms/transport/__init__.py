@@ -6,11 +6,11 @@
 ...     server.read(0.0)
 [b'hello']
 
-`url` says which is meant, `link` what all of them promise; `udp`, `tcp` and `serial_line` are the kinds. `stream` is
-one peer's end of a byte stream. Nothing here blocks and nothing raises once it is open: peers come and go.
+`url` says which is meant, `contract` what all of them promise; `udp`, `tcp` and `serial_line` are the kinds, `stream`
+is one peer's end of a byte stream. Nothing here blocks and nothing raises once it is open: peers come and go.
 """
 
-from comms.transport.link import Counts, Transport, TransportError
+from comms.transport.contract import Counts, Transport, TransportError
 from comms.transport.url import FORMS, transport_of
 
 __all__ = ["FORMS", "Counts", "Transport", "TransportError", "transport_of"]

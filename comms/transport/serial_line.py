@@ -11,7 +11,7 @@ from types import TracebackType
 from typing import Any, Self
 
 from comms.transport.backoff import Backoff
-from comms.transport.link import Counts, TransportError
+from comms.transport.contract import Counts, TransportError
 from comms.transport.stream import Stream
 
 

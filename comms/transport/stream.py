@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 
 from comms.framing import whole_bytes
-from comms.transport.link import SOURCE_BYTES, WAITING_BYTES, Counts
+from comms.transport.contract import SOURCE_BYTES, WAITING_BYTES, Counts
 
 _CHUNK_BYTES = 16_384
 

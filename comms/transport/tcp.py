@@ -8,7 +8,7 @@ from types import TracebackType
 from typing import Self
 
 from comms.transport.backoff import Backoff
-from comms.transport.link import MAX_PEERS, Counts, TransportError
+from comms.transport.contract import MAX_PEERS, Counts, TransportError
 from comms.transport.resolve import resolved, shown
 from comms.transport.stream import Stream
 

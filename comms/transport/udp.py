@@ -9,7 +9,7 @@ from types import TracebackType
 from typing import Any, Self
 
 from comms.framing import datagrams
-from comms.transport.link import DATAGRAM_BYTES, MAX_PEERS, SOURCE_BYTES, Counts, TransportError
+from comms.transport.contract import DATAGRAM_BYTES, MAX_PEERS, SOURCE_BYTES, Counts, TransportError
 from comms.transport.resolve import resolved, shown
 
 Peer = tuple[Any, ...]  # a socket address

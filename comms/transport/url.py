@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple
 
-from comms.transport.link import Transport
+from comms.transport.contract import Transport
 from comms.transport.serial_line import PseudoTerminal, SerialLine
 from comms.transport.tcp import TcpClient, TcpServer
 from comms.transport.udp import UdpClient, UdpServer

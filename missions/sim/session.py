@@ -9,7 +9,7 @@ from contextlib import ExitStack, suppress
 from itertools import count
 from math import radians
 
-from comms.clock import RealTime
+from comms.clock import Pace, RealTime
 from missions.ground_link import GroundLink, open_ground_link
 from missions.problems import InputError, did_you_mean
 from missions.sim.options import SimOptions
@@ -39,7 +39,7 @@ def simulate(options: SimOptions) -> int:
         ]
         _tell(f"{options.flavour} vehicle {options.system_id} on {', '.join(link.url for link in links)}")
         with suppress(KeyboardInterrupt):
-            _run(vehicle, links, speed=options.speed)
+            _run(vehicle, links, pace=SlippingPace(speed=options.speed, tell=_tell))
         for link in links:
             _tell(str(link))
     return STOPPED
@@ -74,15 +74,28 @@ def _ardupilot(options: SimOptions) -> SimulatedVehicle:
 FLAVOURS: dict[str, Callable[[SimOptions], SimulatedVehicle]] = {"ardupilot": _ardupilot}
 
 
-def _run(vehicle: SimulatedVehicle, links: Sequence[GroundLink], *, speed: float) -> None:
-    pace, late_since = RealTime(tick_s=TICK_S, speed=speed), -TELL_PERIOD_TICKS
-    for tick in count(1):
-        late_s = pace.begin(tick)
+class SlippingPace:
+    """Real time, `speed` times as fast; a computer that cannot keep up makes the clock slip, and is told so."""
+
+    def __init__(self, *, speed: float, tell: Callable[[str], None]) -> None:
+        self._speed = speed
+        self._tell = tell
+        self._pace = RealTime(tick_s=TICK_S, speed=speed)
+        self._silent_until = 0
+
+    def begin(self, tick: int) -> float:
+        late_s = self._pace.begin(tick)
         if late_s > TOO_LATE_S:
-            pace = RealTime(tick_s=TICK_S, speed=speed)
-            if tick - late_since >= TELL_PERIOD_TICKS:
-                late_since = tick
-                _tell(f"too slow for {speed:g} times real time: {late_s:.1f} s late, and the vehicle's clock slips")
+            self._pace = RealTime(tick_s=TICK_S, speed=self._speed)
+            if tick >= self._silent_until:
+                self._silent_until = tick + TELL_PERIOD_TICKS
+                self._tell(f"too slow for {self._speed:g} times real time: {late_s:.1f} s late, the clock slips")
+        return late_s
+
+
+def _run(vehicle: SimulatedVehicle, links: Sequence[GroundLink], *, pace: Pace) -> None:
+    for tick in count(1):
+        pace.begin(tick)
         for link in links:
             link.hear()
         vehicle.tick(tick * TICK_S)

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from comms.transport import FORMS, Transport, TransportError, transport_of
-from comms.transport.link import MAX_PEERS, SOURCE_BYTES, WAITING_BYTES
+from comms.transport.contract import MAX_PEERS, SOURCE_BYTES, WAITING_BYTES
 from comms.transport.udp import PEER_SILENT_S
 from tests.comms.test_mavlink import ATTITUDE, HEARTBEAT
 

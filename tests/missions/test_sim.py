@@ -6,6 +6,7 @@ import argparse
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from math import pi
@@ -20,7 +21,7 @@ from comms.transport import Transport, transport_of
 from missions.cli import BAD_INPUT, STOPPED, main
 from missions.sim.options import FLAVOURS, add_options, sim_options
 from missions.sim.session import FLAVOURS as MAKERS
-from missions.sim.session import power_on
+from missions.sim.session import TOO_LATE_S, SlippingPace, power_on
 from tests.comms.test_transport import until
 
 ARGUMENTS = "import sys; from missions.cli import main; sys.exit(main(sys.argv[1:]))"
@@ -132,3 +133,14 @@ def test_it_listens_where_sitl_does_unless_told(given: list[str], links: tuple[s
     parser = argparse.ArgumentParser()
     add_options(parser)
     assert sim_options(parser.parse_args(given)).links == links
+
+
+def test_a_clock_that_cannot_keep_up_slips_and_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    wall_s, told = 0.0, list[str]()
+    monkeypatch.setattr(time, "monotonic", lambda: wall_s)
+    pace = SlippingPace(speed=2.0, tell=told.append)
+    for tick in range(1, 201):  # due every 10 ms, done in 30
+        late_s = pace.begin(tick)
+        assert late_s <= TOO_LATE_S + 0.03
+        wall_s += 0.03
+    assert told == ["too slow for 2 times real time: 0.5 s late, the clock slips"]
