@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from swarm_agent.bcmommt.belief import FAR, NOBODY, Table, answered_by_mate, outranks, owned_by_mate
+from swarm_agent.bcmommt.belief import FAR, NOBODY, Table, answered_by_mate, called_by_mate, outranks, owned_by_mate
 from swarm_agent.bcmommt.params import Params
 
 
@@ -53,10 +53,14 @@ def may_tag(t: Table, p: Params, j: int, helping: int, now: float) -> bool:
     """Section 4.2.2: on its way to help, a robot tags only its call's target, and targets that are not safe already.
 
     Safe is a target with an owner, or with a call that somebody else has answered. Theorem 2 needs this rule.
+
+    PAPER: there every called target is in its caller's sight. Ours may be lost already (`remember_losses`): whoever
+    sees such a one takes it, answered or not.
     """
     if helping in (NOBODY, j):
         return True
-    return not owned_by_mate(t, p, j, now) and not answered_by_mate(t, p, j, now)
+    lost = called_by_mate(t, p, j, now) and t.call_loss_at_s[j] <= now
+    return not owned_by_mate(t, p, j, now) and (lost or not answered_by_mate(t, p, j, now))
 
 
 def nearest_tag(t: Table) -> int:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from swarm_agent.bcmommt.belief import NOBODY, begin_tick, hear_answer, hear_mate, hear_tag
+from swarm_agent.bcmommt.belief import NOBODY, begin_tick, hear_answer, hear_call, hear_mate, hear_tag
 from swarm_agent.bcmommt.tags import claim_tags, nearest_tag
 from tests.swarm_agent.bcmommt.scene import LAST_TICK, NOW, PAPER_WORLD, claim, sense, table
 
@@ -96,6 +96,16 @@ def test_a_helper_tags_its_own_target_and_those_that_are_not_safe() -> None:
     assert t.tagged == [True, False, False, True]
     claim_tags(t, P, 1, NOBODY, NOW)
     assert t.tagged == [True, True, True, True]
+
+
+@pytest.mark.parametrize(("loss_in", "tagged"), [(5.0, False), (0.0, True)])
+def test_a_helper_takes_an_answered_target_that_is_lost_already(loss_in: float, tagged: bool) -> None:
+    t = table()
+    sense(t, 1, 1.0, 0.0)
+    hear_call(t, P, 1, 2, LAST_TICK + loss_in, LAST_TICK)
+    hear_answer(t, P, 1, 4, 1.0, LAST_TICK)
+    claim_tags(t, P, 1, 0, NOW)
+    assert t.tagged[1] is tagged
 
 
 def test_what_was_seen_is_forgotten_but_its_distance_is_kept_for_one_tick() -> None:
