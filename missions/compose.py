@@ -19,7 +19,7 @@ from missions.vehicles import LinkedVehicle, Vehicle
 from swarm_agent.agent import Agent, AgentConfig
 from swarm_agent.autopilot import Pilot, PilotConfig
 from swarm_agent.bcmommt.net import BLANK, Net
-from swarm_agent.bcmommt.params import Call, Capture, Explore, Gate, Params, Policy, Predictor, with_range
+from swarm_agent.bcmommt.params import Answering, Call, Capture, Explore, Gate, Params, Policy, Predictor, with_range
 from swarm_agent.fence import Fence, circle, polygon
 from swarm_agent.safety import SafetyConfig, stopping_distance_m
 from vehicle_sim.autopilot import SimulatedVehicle
@@ -43,9 +43,15 @@ _POLICIES = {
     "b-cmommt": Policy.B_CMOMMT,
     "regions": Policy.REGIONS,
 }
-_PREDICTORS = {"none": Predictor.NONE, "direct": Predictor.DIRECT, "learned": Predictor.LEARNED}
+_PREDICTORS = {
+    "none": Predictor.NONE,
+    "direct": Predictor.DIRECT,
+    "learned": Predictor.LEARNED,
+    "perfect": Predictor.PERFECT,
+}
 _CALLS = {"predicted": Call.PREDICTED, "all_but_nearest": Call.ALL_BUT_NEAREST}
 _GATES = {"in_time": Gate.IN_TIME, "always": Gate.ALWAYS}
+_ANSWERINGS = {"distributed": Answering.DISTRIBUTED, "optimal": Answering.OPTIMAL}
 _CAPTURES = {"worst_case": Capture.WORST_CASE, "intercept": Capture.INTERCEPT}
 _EXPLORES = {"persistent-walk": Explore.PERSISTENT_WALK, "stale-first": Explore.STALE_FIRST}
 
@@ -111,6 +117,7 @@ def params(mission: Mission) -> Params:
         capture=_CAPTURES[policy.capture],
         commitment=policy.commitment,
         explore=_EXPLORES[policy.explore],
+        answering=_ANSWERINGS[policy.answering],
         policy=_POLICIES[policy.name],
         pair_net=pair_net,
         triple_net=triple_net,

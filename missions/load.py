@@ -24,7 +24,7 @@ from missions.keys import Key, allowed, chooser, find_key
 from missions.mission import Mission, Part
 from missions.overrides import Override, Setting, apply_override
 from missions.problems import Mark, MissionError, Path, Problem, did_you_mean, shown
-from missions.rules import RULES, Rule
+from missions.rules import FLIGHT_RULES, RULES, Rule
 
 LIBRARY = FilePath(__file__).parent / "library"
 
@@ -39,15 +39,18 @@ def bundled_names() -> list[str]:
     return sorted(path.stem for path in LIBRARY.glob("*.yaml"))
 
 
-def load_mission(name_or_path: str, *, overrides: Iterable[Override] = ()) -> Mission:
+def load_mission(name_or_path: str, *, overrides: Iterable[Override] = (), for_study: bool = False) -> Mission:
     """The mission in a file, or the bundled one of that name, with `overrides` put on top.
+
+    Args:
+        for_study: whether it may have what only a study has (foresight, a referee), and cannot be flown.
 
     Raises:
         MissionError: no such mission, or mistakes in it or in the overrides: all of them.
     """
     document = open_mission(name_or_path)
     override_mission(document, overrides)
-    return checked_mission(document)
+    return checked_mission(document, for_study=for_study)
 
 
 def parse_mission(data: bytes, *, source: str, folder: FilePath, overrides: Iterable[Override] = ()) -> Mission:
@@ -77,13 +80,13 @@ def override_mission(
     _anchor(document, folder or FilePath.cwd())
 
 
-def checked_mission(document: Document) -> Mission:
-    """The mission of an open document.
+def checked_mission(document: Document, *, for_study: bool = False) -> Mission:
+    """The mission of an open document; `for_study` as in `load_mission`.
 
     Raises:
         MissionError: all mistakes in it, in the order of its lines.
     """
-    mission, problems = _check(document)
+    mission, problems = _check(document, RULES if for_study else RULES + FLIGHT_RULES)
     problems = sorted([*document.problems, *problems], key=lambda problem: in_file_order(problem, document.source))
     if mission is None or problems:
         raise MissionError(problems)
@@ -131,7 +134,7 @@ def _anchor(document: Document, folder: FilePath) -> None:
             document.values[section][key] = str((folder / file).absolute())
 
 
-def _check(document: Document) -> tuple[Mission | None, list[Problem]]:
+def _check(document: Document, rules: Sequence[Rule]) -> tuple[Mission | None, list[Problem]]:
     """The mission, None if a key is wrong; and the problems of single keys and of the rules between them."""
     unread = {problem.path for problem in document.problems}
     mission, errors = validated(Mission, document.values)
@@ -139,7 +142,7 @@ def _check(document: Document) -> tuple[Mission | None, list[Problem]]:
     # What could not be read stands as null, which is not a second mistake.
     found = [problem for problem in found if problem.path not in unread or problem.got != "null"]
     wrong = unread | {path for error in errors for path in _in_doubt(find_key(error["loc"]))}
-    return mission, found + _broken_rules(document, mission or _mended(document, wrong), wrong)
+    return mission, found + _broken_rules(document, mission or _mended(document, wrong), wrong, rules)
 
 
 def validated(root: type[P], values: dict[str, Any]) -> tuple[P | None, list[ErrorDetails]]:
@@ -193,10 +196,12 @@ def _mended(document: Document, wrong: set[Path]) -> Mission | None:
     return mission
 
 
-def _broken_rules(document: Document, mission: Mission | None, wrong: set[Path]) -> list[Problem]:
+def _broken_rules(
+    document: Document, mission: Mission | None, wrong: set[Path], rules: Sequence[Rule]
+) -> list[Problem]:
     if mission is None:
         return []
-    checkable = [rule for rule in RULES if not any(path[:n] in wrong for path in rule.paths for n in range(1, 9))]
+    checkable = [rule for rule in rules if not any(path[:n] in wrong for path in rule.paths for n in range(1, 9))]
     broken = [(rule, rule.allowed(mission)) for rule in checkable]
     return [_rule_problem(document, mission, rule, text) for rule, text in broken if text is not None]
 

@@ -250,14 +250,17 @@ class Policy(Part):
 
     name: Literal["a-cmommt", "b-cmommt-basic", "b-cmommt", "regions"] = "b-cmommt"
     """The policy: Parker's force sum, the paper's section 4.1, its Algorithm 1, or regions after Jung & Sukhatme."""
-    predictor: Literal["direct", "learned", "none"] = "direct"
-    """Foresees losses: `direct` is eq. 10 of the paper, `learned` its net for two and three tags, `none` nothing."""
+    predictor: Literal["direct", "learned", "none", "perfect"] = "direct"
+    """Foresees losses: `direct` is eq. 10 of the paper, `learned` its net for two and three tags, `none` nothing,
+    `perfect` (in a study alone) what will happen if nobody helps."""
     weights: Annotated[Path | None, Field(strict=False), Allowed("null, or the path of a weights file")] = None
     """Weights of the learned predictor, written by `swarm train`; none: those that come with the package."""
     call: Literal["predicted", "all_but_nearest"] = "all_but_nearest"
     """Which of its targets an agent calls help for: those it expects to lose, or all but the nearest."""
     answer_gate: Literal["in_time", "always"] = "always"
     """Which calls are answered: those where capture comes before the loss, or all."""
+    answering: Literal["distributed", "optimal"] = "distributed"
+    """Who decides which call an agent answers: itself, or (in a study alone) a referee who knows all (eq. 15)."""
     capture: Literal["worst_case", "intercept"] = "intercept"
     """How the time to capture is estimated: the target flees straight away (eq. 13), or keeps its velocity."""
     help_margin_s: NonNegative = 40.0

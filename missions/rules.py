@@ -211,6 +211,16 @@ def _search_has_few_cells(mission: Mission) -> str | None:
     return "persistent-walk in an arena that is so large beside agents.sensing.range_m"
 
 
+def _predictor_flies(mission: Mission) -> str | None:
+    if mission.policy.predictor != "perfect":
+        return None
+    return "direct, learned or none (perfect is for swarm study alone)"
+
+
+def _answering_flies(mission: Mission) -> str | None:
+    return None if mission.policy.answering == "distributed" else "distributed (optimal is for swarm study alone)"
+
+
 _SENSING = tuple(f"agents.sensing.{key}" for key in ("range_m", "field_of_view", "half_angle_deg"))
 _START = ("agents.deployment.radius_m", "agents.deployment.spacing_m", "agents.count", "seed")
 _ARENA = ("arena", "arena.radius_m", "arena.width_m", "arena.height_m")
@@ -239,3 +249,8 @@ RULES = (
     Rule("targets.file", (), _tracks_exist),
     Rule("policy.weights", (), _weights_are_readable),
 )
+FLIGHT_RULES = (
+    Rule("policy.predictor", (), _predictor_flies),
+    Rule("policy.answering", (), _answering_flies),
+)
+"""What holds beside them where a mission is flown, and not in a study."""

@@ -12,7 +12,6 @@ from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -20,11 +19,23 @@ import numpy.typing as npt
 from comms.chance import PLACE_TARGET
 from missions import compose
 from missions.mission import Mission, TrackTargets
-from missions.study.loop import EVASIVE, RANDOM, REPLAY, STATIC, Flock, Kept, Said, Setup, fly
+from missions.study.compiled.loop import fly, new_oracle
+from missions.study.compiled.state import (
+    EVASIVE,
+    RANDOM,
+    REPLAY,
+    STATIC,
+    Kept,
+    Setup,
+    new_flock,
+    new_kept,
+    new_said,
+    new_tables,
+)
 from missions.targets import herd
-from swarm_agent.bcmommt.belief import FAR, NEVER, NOBODY, Table, cell_columns, cell_rows
+from swarm_agent.bcmommt.belief import cell_columns, cell_rows
 from swarm_agent.bcmommt.net import Net
-from swarm_agent.bcmommt.params import Params, with_range
+from swarm_agent.bcmommt.params import Answering, Params, Predictor, with_range
 from vehicle_sim.placement import heading
 
 _MOTIONS = {"evasive": EVASIVE, "random": RANDOM, "static": STATIC}
@@ -137,8 +148,11 @@ def fly_setup(setup: Setup, params: Params, *, keep_all: bool) -> Kept:
     """
     params = _with_arrays(params)
     m, n = len(setup.home_x), len(setup.target_x)
-    kept = _kept(setup.ticks, m, n, keep_all)
-    fly(setup, params, _tables(_cells(setup, params), m, n), _flock(setup), _said(m, n), _said(m, n), kept)
+    kept = new_kept(setup.ticks, m, n, keep_all)
+    tables = new_tables(m, n, _cells(setup, params))
+    knowing = params.predictor == Predictor.PERFECT or params.answering == Answering.OPTIMAL
+    oracle = new_oracle(m, n) if knowing else None
+    fly(setup, params, tables, new_flock(setup), new_said(m, n), new_said(m, n), kept, oracle)
     return kept
 
 
@@ -202,102 +216,6 @@ def _cells(setup: Setup, params: Params) -> int:
     """Cells of the agent that has most of them: the one that sees least far."""
     nearest = with_range(params, setup.sensing_range_m.min())
     return cell_columns(nearest) * cell_rows(nearest)
-
-
-def _tables(cells: int, m: int, n: int) -> Table:
-    def per_target(value: float, dtype: Any = np.float64) -> npt.NDArray[Any]:
-        return np.full((m, n), value, dtype)
-
-    return Table(
-        sensed=per_target(False, np.bool_),
-        x_m=per_target(0.0),
-        y_m=per_target(0.0),
-        vx_m_s=per_target(0.0),
-        vy_m_s=per_target(0.0),
-        known_at_s=per_target(NEVER),
-        distance_m=per_target(FAR),
-        distance_before_m=per_target(FAR),
-        tagged=per_target(False, np.bool_),
-        calling=per_target(False, np.bool_),
-        loss_in_s=per_target(FAR),
-        lost_at_s=per_target(NEVER),
-        owner=per_target(NOBODY, np.int64),
-        owner_distance_m=per_target(FAR),
-        owner_at_s=per_target(NEVER),
-        caller=per_target(NOBODY, np.int64),
-        call_loss_at_s=per_target(NEVER),
-        caller_at_s=per_target(NEVER),
-        answerer=per_target(NOBODY, np.int64),
-        answer_capture_s=per_target(FAR),
-        answerer_at_s=per_target(NEVER),
-        mate_x_m=np.zeros((m, m)),
-        mate_y_m=np.zeros((m, m)),
-        mate_at_s=np.full((m, m), NEVER),
-        cell_seen_at_s=np.full((m, cells), NEVER),
-    )
-
-
-def _flock(setup: Setup) -> Flock:
-    m, n = len(setup.home_x), len(setup.target_x)
-    return Flock(
-        mode=np.zeros(m, np.int64),
-        helps=np.full(m, NOBODY),
-        capture=np.full(m, FAR),
-        heading_x=setup.heading_x.copy(),
-        heading_y=setup.heading_y.copy(),
-        goal=np.full(m, NOBODY),
-        goal_since=np.full(m, NEVER),
-        east=np.zeros(m),
-        north=np.zeros(m),
-        x=setup.home_x.copy(),
-        y=setup.home_y.copy(),
-        facing_x=setup.heading_x.copy(),
-        facing_y=setup.heading_y.copy(),
-        before_x=np.zeros(m),
-        before_y=np.zeros(m),
-        v_east=np.zeros(m),
-        v_north=np.zeros(m),
-        target_x=setup.target_x.copy(),
-        target_y=setup.target_y.copy(),
-        target_ux=setup.target_ux.copy(),
-        target_uy=setup.target_uy.copy(),
-        here=np.ones(n, np.bool_),
-        seen=np.zeros(n, np.bool_),
-        owned=np.zeros((m, n), np.bool_),
-        helping=np.full(m, NOBODY),
-        called_at=np.full((m, n), NEVER),
-        heard=np.zeros(m, np.bool_),
-    )
-
-
-def _said(m: int, n: int) -> Said:
-    return Said(
-        x=np.zeros(m),
-        y=np.zeros(m),
-        n_tags=np.zeros(m, np.int64),
-        tag=np.zeros((m, n), np.int64),
-        tag_values=np.zeros((m, n, 5)),
-        n_calls=np.zeros(m, np.int64),
-        call=np.zeros((m, n), np.int64),
-        call_values=np.zeros((m, n, 6)),
-        answer=np.full(m, NOBODY),
-        capture=np.zeros(m),
-    )
-
-
-def _kept(ticks: int, m: int, n: int, keep_all: bool) -> Kept:
-    more = ticks if keep_all else 0
-    return Kept(
-        seen=np.zeros(ticks, np.int32),
-        present=np.zeros(ticks, np.int32),
-        events=np.zeros(3, np.int64),
-        help=np.zeros(4, np.int64),
-        agents=np.zeros((more, m, 2)),
-        targets=np.zeros((more, n, 2)),
-        tagged=np.zeros((more, m, n), np.bool_),
-        sensed=np.zeros((more, m, n), np.bool_),
-        mode=np.zeros((more, m), np.int8),
-    )
 
 
 def _share(seen: npt.NDArray[np.int32], present: npt.NDArray[np.int32]) -> Floats:

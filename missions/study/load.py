@@ -179,7 +179,7 @@ class _Maker:
         own = mission.copy()
         override_mission(own, self._settings(labels), folder=self._folder)
         try:
-            return checked_mission(own)
+            return checked_mission(own, for_study=True)
         except MissionError as error:
             self._problems |= {str(problem): problem for problem in error.problems}
             return None

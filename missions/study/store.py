@@ -25,24 +25,11 @@ from missions.report import PACKAGES, versions
 from missions.study.flown import Flown
 from missions.study.load import ReadyStudy, dump_study
 from missions.study.shards import Block
+from missions.study.sources import sources_digest
 
 STUDY, MANIFEST, BLOCKS = "study.yaml", "manifest.json", "blocks"
 FORMAT = 1
 _PACKAGES = (*PACKAGES, "numba", "numpy", "pyarrow", "matplotlib")
-_ROOT = Path(__file__).parent.parent.parent
-# All that decides how a mission goes. The pilots, the wires and the recorder take no part in a study.
-_SOURCES = (
-    "comms/*.py",
-    "swarm_agent/bcmommt/*.py",
-    "swarm_agent/policies/*.py",
-    "vehicle_sim/*.py",
-    "missions/training/weights.json",
-    "missions/compose.py",
-    "missions/rules.py",
-    "missions/study/engine.py",
-    "missions/study/loop.py",
-    "missions/study/rules.py",
-)
 R = TypeVar("R")
 
 
@@ -141,15 +128,6 @@ def manifest(ready: ReadyStudy) -> dict[str, Any]:
         "sources": sources_digest(),
         "versions": versions(_PACKAGES),
     }
-
-
-def sources_digest() -> str:
-    """Names the rules that fly a study: 16 hexadecimal digits, others when a source changes."""
-    paths = sorted(path for pattern in _SOURCES for path in _ROOT.glob(pattern))
-    whole = hashlib.sha256()
-    for path in paths:
-        whole.update(path.relative_to(_ROOT).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
-    return whole.hexdigest()[:16]
 
 
 def write_whole(path: Path, data: bytes) -> None:

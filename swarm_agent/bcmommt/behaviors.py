@@ -51,14 +51,18 @@ def follow(t: Table, p: Params, me_x: float, me_y: float) -> tuple[float, float]
             vx += t.vx_m_s[j]
             vy += t.vy_m_s[j]
             n += 1
-    dx, dy = x / n - me_x, y / n - me_y
+    return pursue(p, x / n - me_x, y / n - me_y, vx / n, vy / n)
+
+
+def pursue(p: Params, dx: float, dy: float, vx: float, vy: float) -> tuple[float, float]:
+    """To a point (dx, dy) away that moves at (vx, vy), `standoff_m` short of it where that is wanted."""
     if p.standoff_m > 0.0:
         distance = sqrt(dx * dx + dy * dy)
         if distance > 1e-6:
             share = (distance - p.standoff_m) / distance
             dx, dy = dx * share, dy * share
     gain = p.follow_gain_per_s
-    return capped(dx * gain + vx / n, dy * gain + vy / n, p.agent_speed_m_s)
+    return capped(dx * gain + vx, dy * gain + vy, p.agent_speed_m_s)
 
 
 def approach(t: Table, p: Params, j: int, me_x: float, me_y: float, now: float) -> tuple[float, float]:

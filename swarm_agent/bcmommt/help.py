@@ -16,7 +16,7 @@ from swarm_agent.bcmommt.belief import (
     owned_by_mate,
     predicted_place,
 )
-from swarm_agent.bcmommt.params import Call, Gate, Params
+from swarm_agent.bcmommt.params import Answering, Call, Gate, Params
 from swarm_agent.bcmommt.reach import time_to_capture
 from swarm_agent.bcmommt.tags import nearest_tag
 
@@ -36,6 +36,8 @@ def remember_losses(t: Table, p: Params, me_x: float, me_y: float, now: float) -
     `memory_s` 0 this does nothing. To be called before `claim_tags`: it reads the tags of one tick ago.
     """
     for j in range(len(t.tagged)):
+        if not t.tagged[j] and t.lost_at_s[j] == NEVER:
+            continue  # neither mine nor missed: most targets, most of the time
         if t.sensed[j] or owned_by_mate(t, p, j, now):
             t.lost_at_s[j] = NEVER
         elif t.tagged[j]:
@@ -84,6 +86,8 @@ def keeps(t: Table, p: Params, j: int, me: int, me_x: float, me_y: float, my_cap
     Args:
         my_capture: the time to capture that I broadcast one tick ago, as old as the mate's answer.
     """
+    if p.answering == Answering.OPTIMAL:
+        return True  # the referee has looked
     if not is_called(t, p, j, me_x, me_y, now):
         return False  # withdrawn, expired or settled. PAPER: Algorithm 1 has no way back from Help to Explore
     rival = answered_by_mate(t, p, j, now)
@@ -97,16 +101,15 @@ def choose(
 
     AH holds the answered calls that I can reach quicker than whoever answers. "Closest" is the least T_r, then the
     least distance, then the lower target. Returns (NOBODY, FAR) if there is none.
-
-    PAPER: a call is answered when the capture comes BEFORE the loss (T_r < t_l; the text prints the reverse, the proof
-    of theorem 1 needs this). With the gate ALWAYS that condition falls away.
     """
+    if p.answering == Answering.OPTIMAL:
+        return NOBODY, FAR  # not mine to choose
     best, best_capture, best_distance, best_unanswered = NOBODY, FAR, FAR, False
     for j in range(len(t.caller)):
         if not is_called(t, p, j, me_x, me_y, now):
             continue
-        capture = time_to_capture(t, p, j, me_x, me_y, now)
-        if capture >= FAR or (p.gate == Gate.IN_TIME and capture >= time_until_loss(t, p, j, now)):
+        capture = time_if_answered(t, p, j, me_x, me_y, now)
+        if capture >= FAR:
             continue
         unanswered = not answered_by_mate(t, p, j, now)
         if not unanswered:
@@ -123,6 +126,18 @@ def choose(
         if better:
             best, best_capture, best_distance, best_unanswered = j, capture, distance, unanswered
     return best, best_capture
+
+
+def time_if_answered(t: Table, p: Params, j: int, me_x: float, me_y: float, now: float) -> float:
+    """T_r for the called target j, an element of the matrix H (eq. 15): FAR if the call may not be answered.
+
+    PAPER: a call is answered when the capture comes BEFORE the loss (T_r < t_l; the text prints the reverse, the proof
+    of theorem 1 needs this). With the gate ALWAYS that condition falls away.
+    """
+    capture = time_to_capture(t, p, j, me_x, me_y, now)
+    if p.gate == Gate.IN_TIME and capture >= time_until_loss(t, p, j, now):
+        return FAR
+    return capture
 
 
 def must_go(t: Table, p: Params, j: int, capture: float, now: float) -> bool:

@@ -14,6 +14,9 @@ def predict_losses(t: Table, p: Params, n_tags: int) -> None:
 
     With one tag, or without a predictor, nothing is ever predicted to be lost.
     """
+    if p.predictor == Predictor.PERFECT and n_tags >= 2:
+        _keep_foreseen(t, p)
+        return
     for j in range(len(t.tagged)):
         t.loss_in_s[j] = FAR
     if n_tags < 2:
@@ -22,6 +25,13 @@ def predict_losses(t: Table, p: Params, n_tags: int) -> None:
         _predict_learned(t, p, n_tags)
     elif p.predictor != Predictor.NONE:
         _predict_direct(t, p, n_tags)
+
+
+def _keep_foreseen(t: Table, p: Params) -> None:
+    """What the column holds is true; left of it are the losses of tags within the horizon."""
+    for j in range(len(t.tagged)):
+        if not t.tagged[j] or t.loss_in_s[j] > p.horizon_s:
+            t.loss_in_s[j] = FAR
 
 
 def _predict_learned(t: Table, p: Params, n_tags: int) -> None:

@@ -24,6 +24,7 @@ class Predictor(IntEnum):
     NONE = 0  # never: no help is called
     DIRECT = 1  # eq. 10
     LEARNED = 2  # a net for two tags and one for three, eq. 10 above that
+    PERFECT = 3  # theorem 2's assumption: whoever knows the world has filled the column loss_in_s
 
 
 class Call(IntEnum):
@@ -38,6 +39,13 @@ class Gate(IntEnum):
 
     IN_TIME = 0  # capture comes before loss
     ALWAYS = 1
+
+
+class Answering(IntEnum):
+    """Who decides which call an agent answers."""
+
+    DISTRIBUTED = 0  # each agent for itself, by what it hears (section 4.2.2)
+    OPTIMAL = 1  # a referee who knows all calls and all agents (eq. 15): `Mind.helping` is its word
 
 
 class Capture(IntEnum):
@@ -79,6 +87,7 @@ class Params(NamedTuple):
     capture: int
     commitment: bool
     explore: int
+    answering: int = Answering.DISTRIBUTED
     policy: int = Policy.B_CMOMMT
     pair_net: Net = BLANK
     triple_net: Net = BLANK
@@ -106,6 +115,7 @@ def with_range(p: Params, sensing_range_m: float) -> Params:
         p.capture,
         p.commitment,
         p.explore,
+        p.answering,
         p.policy,
         p.pair_net,
         p.triple_net,

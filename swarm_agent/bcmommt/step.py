@@ -11,7 +11,7 @@ from swarm_agent.bcmommt.belief import FAR, NEVER, NOBODY, Table, cell_x, cell_y
 from swarm_agent.bcmommt.help import choose, issue_calls, keeps, must_go, remember_losses
 from swarm_agent.bcmommt.loss import predict_losses
 from swarm_agent.bcmommt.modes import Mode
-from swarm_agent.bcmommt.params import Explore, Params
+from swarm_agent.bcmommt.params import Answering, Explore, Params
 from swarm_agent.bcmommt.reach import time_to_capture
 from swarm_agent.bcmommt.tags import claim_tags
 
@@ -64,7 +64,7 @@ def decide(
         return next_mind(mind, Mode.FOLLOW, NOBODY, FAR), vx, vy
 
     capture = FAR
-    if helping != NOBODY and p.commitment:
+    if helping != NOBODY and (p.commitment or p.answering == Answering.OPTIMAL):
         capture = time_to_capture(t, p, helping, x, y, now)
     if capture >= FAR:  # free to choose, or its target has outrun it
         helping, capture = choose(t, p, me, x, y, helping, mind.capture_s, now)

@@ -109,8 +109,12 @@ CASES: dict[str, tuple[str, list[str]]] = {
         f':2: seed: got "{"9" * 56}...; allowed: a whole number from 0 to 4294967295',
     ]),
     # Choices, of values and of kinds of section.
-    "no such predictor": ("name: m\npolicy: {predictor: perfect}\n", [
-        ':2: policy.predictor: got "perfect"; allowed: direct, learned or none',
+    "no such predictor": ("name: m\npolicy: {predictor: magic}\n", [
+        ':2: policy.predictor: got "magic"; allowed: direct, learned, none or perfect',
+    ]),
+    "what a study alone can have": ("name: m\npolicy:\n  predictor: perfect\n  answering: optimal\n", [
+        ':3: policy.predictor: got "perfect"; allowed: direct, learned or none (perfect is for swarm study alone)',
+        ':4: policy.answering: got "optimal"; allowed: distributed (optimal is for swarm study alone)',
     ]),
     "values that come later": (
         "name: m\nvehicle: {kind: glider}\nradio: {mode: field}\npolicy: {name: shepherd}\n"

@@ -6,14 +6,19 @@ what agents tell each other through whole millimeters and milliseconds.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from comms.link import in_range
 from comms.messages import MAX_CALLS, MAX_TAGS, on_wire
-from missions.metrics import CALL_PAUSE_S
-from missions.study.rules import compiled, inlined
+from missions.study.compiled.counting import count, keep_all
+from missions.study.compiled.foresight import Future, foresee, new_future
+from missions.study.compiled.motion import move_targets, place_replayed
+from missions.study.compiled.referee import Desk, assign, new_desk
+from missions.study.compiled.rows import row
+from missions.study.compiled.rules import compiled, inlined
+from missions.study.compiled.state import REPLAY, Flock, Kept, Said, Setup
 from swarm_agent.bcmommt.belief import (
     NOBODY,
     Table,
@@ -26,151 +31,10 @@ from swarm_agent.bcmommt.belief import (
     see,
 )
 from swarm_agent.bcmommt.modes import Mode
-from swarm_agent.bcmommt.params import Params, with_range
+from swarm_agent.bcmommt.params import Answering, Params, Predictor, with_range
 from swarm_agent.bcmommt.step import Mind
 from swarm_agent.policies.choice import decide
 from vehicle_sim.sensing import facing, reported, sees
-from vehicle_sim.targets import evade, roam
-
-EVASIVE, RANDOM, STATIC, REPLAY = 0, 1, 2, 3
-
-Array = Any
-
-
-class Setup(NamedTuple):
-    """What one mission starts from. m agents, n targets, T ticks; positions in ENU meters.
-
-    Attributes:
-        home_x, home_y (m): agents' starting places. heading_x, heading_y (m): unit vectors of their search.
-        target_x, target_y, target_ux, target_uy (n): targets' places and headings.
-        track_x, track_y (T, n): places of replayed targets, NaN while absent; (0, 0) for other motions.
-        sensing_range_m (m): how far each agent sees; cos_half_opening: and into which angle, as `sees` reads it.
-        motion: EVASIVE, RANDOM, STATIC or REPLAY. start_tick: the clock's tick at which the mission begins.
-    """
-
-    home_x: Array
-    home_y: Array
-    heading_x: Array
-    heading_y: Array
-    target_x: Array
-    target_y: Array
-    target_ux: Array
-    target_uy: Array
-    track_x: Array
-    track_y: Array
-    motion: int
-    target_speed_m_s: float
-    notice_range_m: float
-    comm_range_m: float
-    sensing_range_m: Array
-    cos_half_opening: float
-    identity_error: float
-    seed: int
-    ticks: int
-    start_tick: int
-
-
-class Said(NamedTuple):
-    """The frames of one tick, by sender: counts, and columns of their tags, calls and answer."""
-
-    x: Array
-    y: Array
-    n_tags: Array
-    tag: Array  # (m, n) target ids
-    tag_values: Array  # (m, n, 5): x, y, vx, vy, distance
-    n_calls: Array
-    call: Array
-    call_values: Array  # (m, n, 6): x, y, vx, vy, loss in, seen ago
-    answer: Array
-    capture: Array
-
-
-class Flock(NamedTuple):
-    """What changes from tick to tick beside the tables: minds and places of agents, places of targets.
-
-    Attributes:
-        mode .. goal_since (m): the columns of every agent's `Mind`. east, north (m): true place from home; x, y (m): in
-        the mission's frame, and before_x, before_y one tick ago. facing_x, facing_y (m): unit vector it looks along.
-        v_east, v_north (m): velocity to the next tick.
-        target_x .. target_uy (n), here (n): targets, and whether they are in the world. seen (n): whether any sensor
-        sees them, under whatever name.
-        owned (m, n), helping (m): tags and help one tick ago. called_at (m, n): when each call was last out.
-        heard (m): scratch.
-    """
-
-    mode: Array
-    helps: Array
-    capture: Array
-    heading_x: Array
-    heading_y: Array
-    goal: Array
-    goal_since: Array
-    east: Array
-    north: Array
-    x: Array
-    y: Array
-    facing_x: Array
-    facing_y: Array
-    before_x: Array
-    before_y: Array
-    v_east: Array
-    v_north: Array
-    target_x: Array
-    target_y: Array
-    target_ux: Array
-    target_uy: Array
-    here: Array
-    seen: Array
-    owned: Array
-    helping: Array
-    called_at: Array
-    heard: Array
-
-
-class Kept(NamedTuple):
-    """What is kept of a mission. The last five are empty unless everything is kept."""
-
-    seen: Array  # (T)
-    present: Array  # (T)
-    events: Array  # (3)
-    help: Array  # (4)
-    agents: Array  # (T, m, 2)
-    targets: Array  # (T, n, 2)
-    tagged: Array  # (T, m, n)
-    sensed: Array  # (T, m, n)
-    mode: Array  # (T, m)
-
-
-@inlined
-def _row(t: Table, i: int) -> Table:
-    """Agent i's table: one row of every column."""
-    return Table(
-        t.sensed[i],
-        t.x_m[i],
-        t.y_m[i],
-        t.vx_m_s[i],
-        t.vy_m_s[i],
-        t.known_at_s[i],
-        t.distance_m[i],
-        t.distance_before_m[i],
-        t.tagged[i],
-        t.calling[i],
-        t.loss_in_s[i],
-        t.lost_at_s[i],
-        t.owner[i],
-        t.owner_distance_m[i],
-        t.owner_at_s[i],
-        t.caller[i],
-        t.call_loss_at_s[i],
-        t.caller_at_s[i],
-        t.answerer[i],
-        t.answer_capture_s[i],
-        t.answerer_at_s[i],
-        t.mate_x_m[i],
-        t.mate_y_m[i],
-        t.mate_at_s[i],
-        t.cell_seen_at_s[i],
-    )
 
 
 @inlined
@@ -212,64 +76,28 @@ def _say(said: Said, t: Table, p: Params, i: int, x: float, y: float, now: float
 
 
 @inlined
-def _count(kept: Kept, tables: Table, f: Flock, said: Said, k: int, now: float) -> None:
-    """Coverage, definition 7 and help episodes of tick k, as `missions.metrics` counts them."""
-    m, n = f.owned.shape
-    for j in range(n):
-        had = has = dropped = False
-        for i in range(m):
-            had |= f.owned[i, j]
-            has |= tables.tagged[i, j]
-            dropped |= f.owned[i, j] and not tables.tagged[i, j]
-        kept.present[k] += f.here[j]
-        kept.seen[k] += f.seen[j]
-        kept.events[0] += had and not has
-        kept.events[1] += has and not had
-        kept.events[2] += had and has and dropped
-    for i in range(m):
-        for c in range(said.n_calls[i]):
-            j = said.call[i, c]
-            kept.help[0] += now - f.called_at[i, j] > CALL_PAUSE_S
-            f.called_at[i, j] = now
-        old, new = f.helping[i], said.answer[i]
-        if new != old:
-            kept.help[1] += new != NOBODY
-            if old != NOBODY:
-                if tables.tagged[i, old]:
-                    kept.help[2] += 1
-                else:
-                    kept.help[3] += _is_answered(said, old)
-    for i in range(m):
-        f.helping[i] = said.answer[i]
-        for j in range(n):
-            f.owned[i, j] = tables.tagged[i, j]
+def _link(s: Setup, f: Flock) -> None:
+    """Who hears whom: the frames of one tick ago reach those who were in range then. Range has no direction."""
+    for i in range(len(f.x)):
+        for q in range(i):
+            near = in_range(f.before_x[i] - f.before_x[q], f.before_y[i] - f.before_y[q], s.comm_range_m)
+            f.linked[i, q] = f.linked[q, i] = near
 
 
 @inlined
-def _is_answered(said: Said, j: int) -> bool:
-    for i in range(len(said.answer)):  # noqa: SIM110  # a generator does not compile
-        if said.answer[i] == j:
-            return True
-    return False
-
-
-@inlined
-def _act(s: Setup, p: Params, t: Table, f: Flock, old: Said, new: Said, i: int, k: int) -> None:
-    """Agent i at tick k: hear, see, decide, say."""
-    now, said_at = (s.start_tick + k) * p.tick_s, on_wire((s.start_tick + k - 1) * p.tick_s)
-    # Where the agent believes it is: its local position comes as a 32-bit float.
-    x = s.home_x[i] + np.float64(np.float32(f.east[i]))
-    y = s.home_y[i] + np.float64(np.float32(f.north[i]))
+def _perceive(s: Setup, p: Params, t: Table, f: Flock, old: Said, i: int, k: int) -> None:
+    """Agent i at tick k: where it believes it is, what it hears and what it sees."""
+    # Its local position comes as a 32-bit float.
+    f.me_x[i] = s.home_x[i] + np.float64(np.float32(f.east[i]))
+    f.me_y[i] = s.home_y[i] + np.float64(np.float32(f.north[i]))
     begin_tick(t)
     if k > 0:
+        said_at = on_wire((s.start_tick + k - 1) * p.tick_s)
         for q in range(len(f.x)):
-            f.heard[q] = q != i and in_range(
-                f.before_x[i] - f.before_x[q], f.before_y[i] - f.before_y[q], s.comm_range_m
-            )
-            if f.heard[q]:
+            if f.linked[i, q]:
                 hear_mate(t, q, old.x[q], old.y[q], said_at)
         for q in range(len(f.x)):
-            if f.heard[q]:
+            if f.linked[i, q]:
                 _hear(t, p, old, q, said_at)
     ux, uy = facing(f.facing_x[i], f.facing_y[i], f.v_east[i], f.v_north[i])
     f.facing_x[i], f.facing_y[i] = ux, uy
@@ -278,7 +106,13 @@ def _act(s: Setup, p: Params, t: Table, f: Flock, old: Said, new: Said, i: int, 
         if f.here[j] and sees(dx, dy, p.sensing_range_m, ux, uy, s.cos_half_opening):
             f.seen[j] = True
             name = reported(j, len(f.here), s.identity_error, i, s.seed, k)
-            see(t, p, name, f.target_x[j], f.target_y[j], x, y, now)
+            see(t, p, name, f.target_x[j], f.target_y[j], f.me_x[i], f.me_y[i], (s.start_tick + k) * p.tick_s)
+
+
+@inlined
+def _act(s: Setup, p: Params, t: Table, f: Flock, new: Said, i: int, k: int) -> None:
+    """Agent i at tick k: decide, and say."""
+    now, x, y = (s.start_tick + k) * p.tick_s, f.me_x[i], f.me_y[i]
     mode = Mode.EXPLORE if f.mode[i] == 0 else (Mode.FOLLOW if f.mode[i] == 1 else Mode.HELP)
     mind = Mind(mode, f.helps[i], f.capture[i], f.heading_x[i], f.heading_y[i], f.goal[i], f.goal_since[i])
     mind, vx, vy = decide(t, p, mind, i, x, y, now, s.seed, k)
@@ -294,17 +128,7 @@ def _act(s: Setup, p: Params, t: Table, f: Flock, old: Said, new: Said, i: int, 
 @inlined
 def _move(s: Setup, p: Params, f: Flock, k: int) -> None:
     """Targets decide from where agents are now; then everything moves on to tick k + 1."""
-    for j in range(len(f.here)):
-        if s.motion == EVASIVE:
-            f.target_x[j], f.target_y[j], f.target_ux[j], f.target_uy[j] = evade(
-                p.arena, f.target_x[j], f.target_y[j], f.target_ux[j], f.target_uy[j], f.x, f.y,
-                s.notice_range_m, s.target_speed_m_s, p.tick_s, s.seed, k, j,
-            )  # fmt: skip
-        elif s.motion == RANDOM:
-            f.target_x[j], f.target_y[j], f.target_ux[j], f.target_uy[j] = roam(
-                p.arena, f.target_x[j], f.target_y[j], f.target_ux[j], f.target_uy[j],
-                s.target_speed_m_s, p.tick_s, s.seed, k, j,
-            )  # fmt: skip
+    move_targets(s, p, f.target_x, f.target_y, f.target_ux, f.target_uy, f.x, f.y, k)
     dt = (s.start_tick + k + 1) * p.tick_s - (s.start_tick + k) * p.tick_s
     for i in range(len(f.x)):
         f.before_x[i], f.before_y[i] = f.x[i], f.y[i]
@@ -314,40 +138,45 @@ def _move(s: Setup, p: Params, f: Flock, k: int) -> None:
         f.y[i] = s.home_y[i] + f.north[i]
 
 
-@inlined
-def _keep(kept: Kept, tables: Table, f: Flock, k: int) -> None:
-    m, n = f.owned.shape
-    for i in range(m):
-        kept.agents[k, i, 0], kept.agents[k, i, 1] = f.x[i], f.y[i]
-        kept.mode[k, i] = f.mode[i]
-        for j in range(n):
-            kept.tagged[k, i, j] = tables.tagged[i, j]
-            kept.sensed[k, i, j] = tables.sensed[i, j]
-    for j in range(n):
-        kept.targets[k, j, 0], kept.targets[k, j, 1] = f.target_x[j], f.target_y[j]
+class Oracle(NamedTuple):
+    """What only a study can know: what will happen (`foresight`), and what everybody hears (`referee`)."""
+
+    future: Future
+    desk: Desk
+
+
+def new_oracle(m: int, n: int) -> Oracle:
+    """One that has not been asked."""
+    return Oracle(new_future(m, n), new_desk(m, n))
 
 
 @compiled
-def fly(s: Setup, p: Params, tables: Table, f: Flock, odd: Said, even: Said, kept: Kept) -> None:
+def fly(s: Setup, p: Params, tables: Table, f: Flock, odd: Said, even: Said, kept: Kept, oracle: Oracle | None) -> None:
     """Fly one mission. `tables` holds every agent's table as a row. All arrays but `s` are written to.
 
-    Nothing in here allocates or counts references (see `rules.OPTIONS`): all arrays come from the caller.
+    Nothing in here allocates or counts references (see `rules.OPTIONS`): all arrays come from the caller. Without an
+    oracle its branches are not compiled: even unused they would cost a tenth of the speed.
     """
     for k in range(s.ticks):
+        old, new = (odd, even) if k % 2 == 0 else (even, odd)
         if s.motion == REPLAY:
-            for j in range(len(f.here)):
-                f.here[j] = s.track_x[k, j] == s.track_x[k, j]  # NaN while it is absent
-                f.target_x[j], f.target_y[j] = s.track_x[k, j], s.track_y[k, j]
+            place_replayed(s, f.here, f.target_x, f.target_y, k)
         for j in range(len(f.seen)):
             f.seen[j] = False
+        _link(s, f)
         for i in range(len(f.x)):
-            own = with_range(p, s.sensing_range_m[i])
-            if k % 2 == 0:
-                _act(s, own, _row(tables, i), f, odd, even, i, k)
-            else:
-                _act(s, own, _row(tables, i), f, even, odd, i, k)
-        now = (s.start_tick + k) * p.tick_s
-        _count(kept, tables, f, even if k % 2 == 0 else odd, k, now)
+            own, t = with_range(p, s.sensing_range_m[i]), row(tables, i)
+            _perceive(s, own, t, f, old, i, k)
+            if oracle is None:
+                _act(s, own, t, f, new, i, k)
+        if oracle is not None:  # it speaks when everybody has perceived
+            if p.predictor == Predictor.PERFECT:
+                foresee(s, p, f, tables, oracle.future, k)
+            if p.answering == Answering.OPTIMAL and k > 0:
+                assign(s, p, f, tables, old, oracle.desk, k)
+            for i in range(len(f.x)):
+                _act(s, with_range(p, s.sensing_range_m[i]), row(tables, i), f, new, i, k)
+        count(kept, tables, f, new, k, (s.start_tick + k) * p.tick_s)
         if len(kept.agents) > 0:
-            _keep(kept, tables, f, k)
+            keep_all(kept, tables, f, k)
         _move(s, p, f, k)

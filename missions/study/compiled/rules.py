@@ -1,12 +1,11 @@
 """The rules of a mission, compiled: the same functions that fly in the air, made callable from numba.
 
-Importing this module registers them. numba's own cache misses edits in other files, so its folder is named by a hash
-of every source that takes part.
+Importing this module registers them. numba's own cache misses edits in other files, so its folder has the name of all
+sources that take part.
 """
 
 from __future__ import annotations
 
-import hashlib
 import inspect
 import os
 from collections.abc import Callable
@@ -35,6 +34,7 @@ import swarm_agent.policies.choice
 import swarm_agent.policies.regions
 import vehicle_sim.sensing
 import vehicle_sim.targets
+from missions.study.sources import sources_digest
 
 RULES: tuple[ModuleType, ...] = (
     comms.arena,
@@ -61,22 +61,12 @@ RULES: tuple[ModuleType, ...] = (
 )
 
 
-def _source_hash(modules: tuple[ModuleType, ...]) -> str:
-    here = Path(__file__).parent
-    sources = [inspect.getsource(module) for module in modules]
-    # The loop itself, and whose constants are compiled into it.
-    sources += [
-        path.read_text(encoding="utf-8") for path in (Path(__file__), here / "loop.py", here.parent / "metrics.py")
-    ]
-    return hashlib.sha256("\0".join(sources).encode()).hexdigest()[:16]
-
-
-def _use_cache_of(modules: tuple[ModuleType, ...]) -> None:
+def _name_cache() -> None:
     base = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache"))
-    os.environ.setdefault("NUMBA_CACHE_DIR", str(base / "swarm-mission-stack" / _source_hash(modules)))
+    os.environ.setdefault("NUMBA_CACHE_DIR", str(base / "swarm-mission-stack" / sources_digest()))
 
 
-_use_cache_of(RULES)  # numba reads the folder's name once, when it is imported
+_name_cache()  # numba reads the folder's name once, when it is imported
 
 import numba  # noqa: E402
 from numba.extending import register_jitable  # noqa: E402
@@ -92,6 +82,12 @@ Rule = TypeVar("Rule", bound=Callable[..., Any])
 def inlined(rule: Rule) -> Rule:
     """A part of a compiled loop: inlined where it is called, like the rules of a mission."""
     compiled: Rule = numba.njit(**OPTIONS)(rule)
+    return compiled
+
+
+def called(part: Rule) -> Rule:
+    """A part of a compiled loop that is seldom used: called, so that it does not burden what it stands in."""
+    compiled: Rule = numba.njit(error_model="numpy", _nrt=False)(part)  # type: ignore[call-overload]
     return compiled
 
 

@@ -11,8 +11,8 @@ from missions import compose
 from missions.load import load_mission
 from missions.mission import Mission
 from missions.overrides import Override
+from missions.study.compiled.state import REPLAY, Kept, Setup
 from missions.study.engine import fly_setup, setup_of
-from missions.study.loop import REPLAY, Kept, Setup
 
 AS_PRINTED = "policy={call: predicted, answer_gate: in_time, capture: worst_case, help_margin_s: 2, memory_s: 0}"
 DEFAULT = "policy={}"
@@ -25,7 +25,7 @@ Place = tuple[float, float]
 
 def mission(*changes: str) -> Mission:
     """The paper's world, ten agents and ten targets from within 15 m, with other values for some keys."""
-    return load_mission("quickstart", overrides=[Override(text) for text in changes])
+    return load_mission("quickstart", overrides=[Override(text) for text in changes], for_study=True)
 
 
 def one_to_one(mission: Mission) -> Setup:
@@ -46,6 +46,12 @@ def loses_sight(kept: Kept) -> bool:
 
 
 def replay(mission: Mission, *, agents: list[Place], targets: list[Place], velocities: list[Place]) -> Kept:
+    """A constructed case, flown: see `replayed`."""
+    setup = replayed(mission, agents=agents, targets=targets, velocities=velocities)
+    return fly_setup(setup, compose.params(mission), keep_all=True)
+
+
+def replayed(mission: Mission, *, agents: list[Place], targets: list[Place], velocities: list[Place]) -> Setup:
     """A constructed case: agents at these places, and targets that go straight on at these velocities (m/s)."""
     setup = setup_of(mission)
     times = np.arange(setup.ticks) * mission.tick_s
@@ -53,10 +59,10 @@ def replay(mission: Mission, *, agents: list[Place], targets: list[Place], veloc
     tracks = start[None] + times[:, None, None] * velocity[None]
     homes = np.array(agents, np.float64)
     still: Floats = np.zeros(len(targets))
-    setup = setup._replace(
+    return setup._replace(
         home_x=homes[:, 0].copy(), home_y=homes[:, 1].copy(),
         target_x=start[:, 0].copy(), target_y=start[:, 1].copy(), target_ux=still, target_uy=still.copy(),
         track_x=tracks[:, :, 0].copy(), track_y=tracks[:, :, 1].copy(), motion=REPLAY,
         heading_x=setup.heading_x[: len(agents)].copy(), heading_y=setup.heading_y[: len(agents)].copy(),
+        sensing_range_m=setup.sensing_range_m[: len(agents)].copy(),
     )  # fmt: skip
-    return fly_setup(setup, compose.params(mission), keep_all=True)

@@ -10,8 +10,8 @@ np = pytest.importorskip("numpy")
 pytest.importorskip("numba")
 
 from missions import compose  # noqa: E402
+from missions.study.compiled.state import Kept  # noqa: E402
 from missions.study.engine import fly_many  # noqa: E402
-from missions.study.loop import Kept  # noqa: E402
 from swarm_agent.bcmommt.profiles import greatest_standoff_m  # noqa: E402
 from tests.missions.study.scenes import AS_PRINTED, NARROW, POLICIES, fly_one_to_one, loses_sight, mission, replay  # noqa: E402
 
