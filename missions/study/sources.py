@@ -8,9 +8,9 @@ from __future__ import annotations
 import hashlib
 from pathlib import Path
 
-_ROOT = Path(__file__).parent.parent.parent
+ROOT = Path(__file__).parent.parent.parent
 # The pilots, the wires and the recorder take no part in a study.
-_SOURCES = (
+SOURCES = (
     *(f"comms/{name}.py" for name in ("arena", "chance", "frames", "link", "messages")),
     "swarm_agent/bcmommt/*.py",
     "swarm_agent/policies/*.py",
@@ -26,8 +26,8 @@ _SOURCES = (
 
 def sources_digest() -> str:
     """16 hexadecimal digits."""
-    paths = sorted(path for pattern in _SOURCES for path in _ROOT.glob(pattern))
+    paths = sorted(path for pattern in SOURCES for path in ROOT.glob(pattern))
     whole = hashlib.sha256()
     for path in paths:
-        whole.update(path.relative_to(_ROOT).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+        whole.update(path.relative_to(ROOT).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
     return whole.hexdigest()[:16]

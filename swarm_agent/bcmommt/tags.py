@@ -59,8 +59,12 @@ def may_tag(t: Table, p: Params, j: int, helping: int, now: float) -> bool:
     """
     if helping in (NOBODY, j):
         return True
-    lost = called_by_mate(t, p, j, now) and t.call_loss_at_s[j] <= now
-    return not owned_by_mate(t, p, j, now) and (lost or not answered_by_mate(t, p, j, now))
+    if owned_by_mate(t, p, j, now):
+        return False
+    if not answered_by_mate(t, p, j, now):
+        return True
+    lost: bool = called_by_mate(t, p, j, now) and t.call_loss_at_s[j] <= now
+    return lost
 
 
 def nearest_tag(t: Table) -> int:

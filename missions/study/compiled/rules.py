@@ -13,6 +13,9 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, TypeVar
 
+import numba
+from numba.extending import register_jitable
+
 import comms.arena
 import comms.chance
 import comms.link
@@ -62,14 +65,13 @@ RULES: tuple[ModuleType, ...] = (
 
 
 def _name_cache() -> None:
+    """numba may be imported already, by others, so that its environment variable would come too late."""
     base = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache"))
-    os.environ.setdefault("NUMBA_CACHE_DIR", str(base / "swarm-mission-stack" / sources_digest()))
+    if not os.environ.get("NUMBA_CACHE_DIR"):
+        numba.config.CACHE_DIR = str(base / "swarm-mission-stack" / sources_digest())  # type: ignore[attr-defined]
 
 
-_name_cache()  # numba reads the folder's name once, when it is imported
-
-import numba  # noqa: E402
-from numba.extending import register_jitable  # noqa: E402
+_name_cache()
 
 # A rule gets a table of arrays by value. Called as a function it spends its time copying and counting references;
 # inlined, and without counting (no rule allocates), ten agents decide many times faster.
