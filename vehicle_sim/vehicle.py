@@ -12,6 +12,8 @@ from vehicle_sim.wind import Wind
 
 Kind = Literal["simulated", "ideal"]
 KINDS: tuple[Kind, ...] = ("simulated", "ideal")
+FlavorName = Literal["ardupilot", "px4"]
+FLAVOR_NAMES: tuple[FlavorName, ...] = ("ardupilot", "px4")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -21,10 +23,12 @@ class VehicleConfig:
     Attributes:
         kind: "simulated" flies with inertia and wind; "ideal" speaks the same MAVLink and follows each velocity
             setpoint exactly, within its speed limits.
+        flavor: whose autopilot it has: an ArduCopter's ("ardupilot") or a PX4's.
         boot_s: from power-on to armable (a real ArduCopter needs 41.2 s: same order, same texts).
     """
 
     kind: Kind = "simulated"
+    flavor: FlavorName = "ardupilot"
     boot_s: float = 2.0
     limits: FlightLimits = field(default_factory=FlightLimits)
     wind: Wind = field(default_factory=Wind)
@@ -33,6 +37,8 @@ class VehicleConfig:
     def __post_init__(self) -> None:
         if self.kind not in KINDS:
             raise ValueError(f"vehicle.kind is one of {', '.join(KINDS)}, not {self.kind!r}")
+        if self.flavor not in FLAVOR_NAMES:
+            raise ValueError(f"vehicle.flavor is one of {', '.join(FLAVOR_NAMES)}, not {self.flavor!r}")
         if not 0.0 <= self.boot_s <= 600.0:
             raise ValueError(f"vehicle.boot_s is 0 to 600 s, not {self.boot_s}")
 

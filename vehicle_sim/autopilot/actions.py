@@ -10,7 +10,7 @@ from vehicle_sim.autopilot.navigation.landing import Land
 from vehicle_sim.autopilot.severity import WARNING
 
 if TYPE_CHECKING:
-    from vehicle_sim.autopilot.core import Autopilot
+    from vehicle_sim.autopilot.copter import Copter
 
 LANDING_GOES_ON = 8  # FS_OPTIONS
 
@@ -39,27 +39,27 @@ ACTION_MODES: dict[Action, tuple[Mode, ...]] = {
 }
 
 
-def act(pilot: Autopilot, action: Action) -> None:
+def act(pilot: Copter, action: Action) -> None:
     """Fly what `action` asks for: the first of its modes that can be entered."""
     if action is Action.TERMINATE:
         pilot.disarm(forced=True)
     enter_first(pilot, ACTION_MODES[action])
 
 
-def enter_first(pilot: Autopilot, modes: tuple[Mode, ...]) -> None:
+def enter_first(pilot: Copter, modes: tuple[Mode, ...]) -> None:
     """Change to the first of `modes` that can be entered."""
     for mode in modes:
         if pilot.set_mode(mode):
             return
 
 
-def pause_landing(pilot: Autopilot) -> None:
+def pause_landing(pilot: Copter) -> None:
     """If it lands now: not at once, as every landing that a failsafe began (recorded; a fence's does not wait)."""
     if isinstance(pilot.guidance.navigator, Land):
         pilot.guidance.navigator.linger()
 
 
-def fail(pilot: Autopilot, what: str, action: Action) -> None:
+def fail(pilot: Copter, what: str, action: Action) -> None:
     """Say that `what` failed and do something about it: on the ground, disarm; in a landing, perhaps just go on."""
     landing = pilot.guidance.landing and int(pilot.parameters["FS_OPTIONS"]) & LANDING_GOES_ON
     if not pilot.armed:

@@ -74,25 +74,37 @@ STAGES: tuple[Stage, ...] = (
 )
 
 
+class Script(NamedTuple):
+    """How a kind of autopilot boots: its texts and stages, in order, and when it is ready to arm."""
+
+    ready_s: float
+    texts: tuple[tuple[float, str], ...]
+    stages: tuple[Stage, ...]
+
+
+ARDUCOPTER = Script(READY_S, TEXTS, STAGES)
+
+
 class Boot:
     """One vehicle's boot sequence, scaled to `boot_s`. It only ever goes forward."""
 
-    def __init__(self, *, boot_s: float, field_elevation_m: float) -> None:
-        scale = boot_s / READY_S
-        self._texts = [(at_s * scale, text.format(field_elevation_m=field_elevation_m)) for at_s, text in TEXTS]
-        self._starts_s = [stage.from_s * scale for stage in STAGES]
+    def __init__(self, script: Script, *, boot_s: float, field_elevation_m: float) -> None:
+        scale = boot_s / script.ready_s
+        self._texts = [(at_s * scale, text.format(field_elevation_m=field_elevation_m)) for at_s, text in script.texts]
+        self._stages = script.stages
+        self._starts_s = [stage.from_s * scale for stage in script.stages]
         self.restart()
 
     def restart(self) -> None:
         """Power-on, again."""
         self._said = 0
-        self.stage = STAGES[0]
+        self.stage = self._stages[0]
 
     def advance(self, age_s: float) -> list[str]:
         """Go on to `age_s` seconds after power-on; the texts that are due, in order."""
         if self._said == len(self._texts):
             return []
-        self.stage = STAGES[max(0, bisect_right(self._starts_s, age_s + 1e-9) - 1)]
+        self.stage = self._stages[max(0, bisect_right(self._starts_s, age_s + 1e-9) - 1)]
         due: list[str] = []
         while self._said < len(self._texts) and self._texts[self._said][0] <= age_s + 1e-9:
             due.append(self._texts[self._said][1])

@@ -19,9 +19,9 @@ class Channel:
         endpoint: with sequence numbers of its own. streams: what the other side asked for.
     """
 
-    def __init__(self, *, system_id: int, started_at_s: float, signing: Signing | None = None) -> None:
+    def __init__(self, *, system_id: int, streams: Streams, signing: Signing | None = None) -> None:
         self.endpoint = Endpoint(system_id=system_id, signing=signing)
-        self.streams = Streams(started_at_s=started_at_s)
+        self.streams = streams
         self._heard = b""
 
     def hear(self, wire: bytes) -> None:

@@ -8,27 +8,22 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from enum import IntEnum
-from math import isfinite
-from typing import Any, NamedTuple
 
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
 from comms.frames import geo_from_enu, swap_enu_ned
-from vehicle_sim.autopilot.core import Autopilot
+from vehicle_sim.autopilot.copter import Copter
 from vehicle_sim.autopilot.modes import Mode
 from vehicle_sim.autopilot.navigation.auto import yaw_of
-from vehicle_sim.autopilot.plans.item import Item
+from vehicle_sim.autopilot.request import Request
 from vehicle_sim.autopilot.setpoints import Setpoint
 from vehicle_sim.autopilot.severity import INFO
-from vehicle_sim.autopilot.streams import Streams
 from vehicle_sim.autopilot.telemetry import BUILDERS
-from vehicle_sim.autopilot.telemetry.state import CUSTOM_MODE
+from vehicle_sim.autopilot.telemetry.fields import CUSTOM_MODE
 
 FORCE_ARM, FORCE_DISARM = 2989.0, 21196.0
 MISSION_CURRENT_ID, VERSION_ID = 42, 148
 CHANGE_MODE = 1  # a flag of DO_REPOSITION
-ABOVE_SEA, FRAMES = 0, frozenset({0, 3, 5, 6})  # MAV_FRAME: above sea level or home, each with an _INT number
-FURTHEST_M = 1e5
 LONGEST_PERIOD_US = 2**31 - 1
 
 
@@ -41,41 +36,10 @@ class Result(IntEnum):
     FAILED = 4
 
 
-class Request(NamedTuple):
-    """A command on its way: who it acts on, its seven parameters, and where answers wait for the acknowledgement."""
-
-    pilot: Autopilot
-    streams: Streams
-    params: tuple[float, ...]
-    frame: int | None  # of a COMMAND_INT, whose place is in degrees times 1e7; None: a COMMAND_LONG, in degrees
-    replies: list[Any]
-
-    @property
-    def item(self) -> Item | None:
-        """Parameters 5 to 7 as a place; None if they are no place on the globe."""
-        x, y, z = self.params[4:7]
-        scale = 1e7 if self.frame is None else 1.0
-        frame = ABOVE_SEA if self.frame is None else self.frame
-        if not (abs(x) * scale <= 9e8 and abs(y) * scale <= 1.8e9 and abs(z) <= FURTHEST_M) or frame not in FRAMES:
-            return None
-        return Item(0, frame, x=round(x * scale), y=round(y * scale), z=z)
-
-    def number(self, index: int) -> int:
-        """Parameter `index` (from 1) as an integer; -1 if it is none."""
-        value = self.params[index - 1]
-        return int(value) if isfinite(value) and 0.0 <= value < 2.0**32 else -1
+Handler = Callable[[Request[Copter]], Result]
 
 
-Handler = Callable[[Request], Result]
-
-
-def run(command: int, request: Request) -> Result:
-    """Do it; UNSUPPORTED if it is not in the table."""
-    handler = COMMANDS.get(command)
-    return Result.UNSUPPORTED if handler is None else handler(request)
-
-
-def set_mode(pilot: Autopilot, base_mode: int, custom_mode: int) -> Result:
+def set_mode(pilot: Copter, base_mode: int, custom_mode: int) -> Result:
     """DO_SET_MODE and the old SET_MODE: only custom modes."""
     if base_mode < 0 or not base_mode & CUSTOM_MODE:
         return Result.DENIED
@@ -86,11 +50,11 @@ def _done(success: bool) -> Result:
     return Result.ACCEPTED if success else Result.FAILED
 
 
-def _do_set_mode(request: Request) -> Result:
+def _do_set_mode(request: Request[Copter]) -> Result:
     return set_mode(request.pilot, request.number(1), request.number(2))
 
 
-def _arm_disarm(request: Request) -> Result:
+def _arm_disarm(request: Request[Copter]) -> Result:
     what, magic = request.params[:2]
     if what == 1.0:
         return _done(request.pilot.arm(forced=magic == FORCE_ARM))
@@ -99,23 +63,23 @@ def _arm_disarm(request: Request) -> Result:
     return Result.UNSUPPORTED
 
 
-def _takeoff(request: Request) -> Result:
+def _takeoff(request: Request[Copter]) -> Result:
     return _done(request.pilot.take_off(request.params[6], navigates=request.params[2] == 0.0))
 
 
-def _land(request: Request) -> Result:
+def _land(request: Request[Copter]) -> Result:
     return _done(request.pilot.set_mode(Mode.LAND))
 
 
-def _return_to_launch(request: Request) -> Result:
+def _return_to_launch(request: Request[Copter]) -> Result:
     return _done(request.pilot.set_mode(Mode.RTL))
 
 
-def _change_speed(request: Request) -> Result:
+def _change_speed(request: Request[Copter]) -> Result:
     return _done(request.pilot.guidance.steering.change_speed(request.number(1), request.params[1]))
 
 
-def _get_home(request: Request) -> Result:
+def _get_home(request: Request[Copter]) -> Result:
     message = BUILDERS[242](request.pilot)
     if message is None:
         return Result.FAILED
@@ -123,7 +87,7 @@ def _get_home(request: Request) -> Result:
     return Result.ACCEPTED
 
 
-def _set_message_interval(request: Request) -> Result:
+def _set_message_interval(request: Request[Copter]) -> Result:
     message_id, period_us = request.number(1), request.params[1]
     if message_id not in BUILDERS:
         return _no_message(request, message_id, Result.DENIED)
@@ -134,7 +98,7 @@ def _set_message_interval(request: Request) -> Result:
     return Result.ACCEPTED
 
 
-def _get_message_interval(request: Request) -> Result:
+def _get_message_interval(request: Request[Copter]) -> Result:
     message_id = request.number(1)
     if not 0 <= message_id <= 65535:
         return Result.FAILED
@@ -144,7 +108,7 @@ def _get_message_interval(request: Request) -> Result:
     return Result.ACCEPTED
 
 
-def _request_message(request: Request) -> Result:
+def _request_message(request: Request[Copter]) -> Result:
     message_id = request.number(1)
     if message_id not in BUILDERS:
         return _no_message(request, message_id, Result.FAILED)
@@ -154,12 +118,12 @@ def _request_message(request: Request) -> Result:
     return Result.ACCEPTED
 
 
-def _no_message(request: Request, message_id: int, result: Result) -> Result:
+def _no_message(request: Request[Copter], message_id: int, result: Result) -> Result:
     request.pilot.say(INFO, f"No ap_message for mavlink id ({message_id})")
     return result
 
 
-def _reposition(request: Request) -> Result:
+def _reposition(request: Request[Copter]) -> Result:
     """Only as COMMAND_INT (recorded). Parameter 2, bit 1: change to GUIDED for it."""
     pilot, item = request.pilot, request.item
     if request.frame is None:
@@ -175,7 +139,7 @@ def _reposition(request: Request) -> Result:
     return Result.ACCEPTED
 
 
-def _condition_yaw(request: Request) -> Result:
+def _condition_yaw(request: Request[Copter]) -> Result:
     degrees, relative = request.params[0], request.params[3]
     if not 0.0 <= degrees <= 360.0 or relative not in (0.0, 1.0):
         return Result.FAILED
@@ -184,7 +148,7 @@ def _condition_yaw(request: Request) -> Result:
     return Result.ACCEPTED
 
 
-def _set_home(request: Request) -> Result:
+def _set_home(request: Request[Copter]) -> Result:
     """Parameter 1 is 1, or no place: here."""
     item, pilot = request.item, request.pilot
     if request.params[0] == 1.0:
@@ -198,12 +162,12 @@ def _set_home(request: Request) -> Result:
     return _done(pilot.set_home(geo_from_enu(pilot.origin, swap_enu_ned((north_m, east_m, down_m)))))
 
 
-def _terminate(request: Request) -> Result:
+def _terminate(request: Request[Copter]) -> Result:
     """DO_FLIGHTTERMINATION: motors off, wherever it is."""
     return _done(request.params[0] > 0.5 and request.pilot.disarm(forced=True))
 
 
-def _pause_or_continue(request: Request) -> Result:
+def _pause_or_continue(request: Request[Copter]) -> Result:
     what = request.params[0]
     if what not in (0.0, 1.0):
         return Result.DENIED
@@ -214,32 +178,32 @@ def _pause_or_continue(request: Request) -> Result:
     return Result.FAILED
 
 
-def _reboot(request: Request) -> Result:
+def _reboot(request: Request[Copter]) -> Result:
     """Parameter 1: 1 reboots, 3 into the bootloader, which is no different here."""
     if request.params[0] not in (1.0, 3.0):
         return Result.UNSUPPORTED
     return _done(request.pilot.reboot())
 
 
-def _tell_capabilities(request: Request) -> Result:
+def _tell_capabilities(request: Request[Copter]) -> Result:
     if request.params[0] != 1.0:
         return Result.DENIED
     request.replies.append(BUILDERS[VERSION_ID](request.pilot))
     return Result.ACCEPTED
 
 
-def _fence_enable(request: Request) -> Result:
+def _fence_enable(request: Request[Copter]) -> Result:
     switch = request.params[0]
     if switch not in (0.0, 1.0):
         return Result.FAILED
     return _done(request.pilot.parameters.store("FENCE_ENABLE", switch))
 
 
-def _mission_start(request: Request) -> Result:
+def _mission_start(request: Request[Copter]) -> Result:
     return _done(request.pilot.start_mission())
 
 
-def _set_mission_current(request: Request) -> Result:
+def _set_mission_current(request: Request[Copter]) -> Result:
     pilot, seq = request.pilot, request.number(1)
     if not 0 <= seq < len(pilot.mission.items):
         return Result.DENIED

@@ -15,7 +15,7 @@ from vehicle_sim.autopilot.ekf_check import EkfCheck
 from vehicle_sim.autopilot.severity import WARNING
 
 if TYPE_CHECKING:
-    from vehicle_sim.autopilot.core import Autopilot
+    from vehicle_sim.autopilot.copter import Copter
 
 # FS_GCS_ENABLE -> what to do; values that are not here return, as ArduCopter does.
 GCS_ACTIONS: dict[int, Action] = {
@@ -38,7 +38,7 @@ class GcsFailsafe:
     def hear(self, now_s: float) -> None:
         self._heard_at_s = now_s
 
-    def watch(self, pilot: Autopilot) -> None:
+    def watch(self, pilot: Copter) -> None:
         """Act FS_GCS_TIMEOUT after its last heartbeat; say so when it is back."""
         enabled = int(pilot.parameters["FS_GCS_ENABLE"])
         if not enabled or self._heard_at_s is None:
@@ -68,7 +68,7 @@ class Failsafes:
         """Whether HEARTBEAT.system_status is CRITICAL."""
         return self.gcs.active or self.ekf.active or self.battery.level is not Level.FINE
 
-    def watch(self, pilot: Autopilot) -> None:
+    def watch(self, pilot: Copter) -> None:
         """Look at everything once."""
         self.gcs.watch(pilot)
         self.battery.watch(pilot)

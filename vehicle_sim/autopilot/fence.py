@@ -13,7 +13,7 @@ from vehicle_sim.autopilot.plans.store import Store
 from vehicle_sim.autopilot.severity import NOTICE
 
 if TYPE_CHECKING:
-    from vehicle_sim.autopilot.core import Autopilot
+    from vehicle_sim.autopilot.copter import Copter
 
 GIVE_UP_M = 100.0  # further out than this it lands where it is
 AGAIN_M = 20.0  # further out, and a breach counts again ...
@@ -61,7 +61,7 @@ class Fence:
         self.breaches = 0
         self.breached_at_s = 0.0
 
-    def beyond_m(self, pilot: Autopilot) -> dict[Border, float]:
+    def beyond_m(self, pilot: Copter) -> dict[Border, float]:
         """How far it is beyond each border that is switched on (a polygon: 0); only those that it is beyond."""
         steering, parameters = pilot.guidance.steering, pilot.parameters
         if not parameters["FENCE_ENABLE"] or not pilot.has_position:
@@ -79,7 +79,7 @@ class Fence:
         switched_on = int(parameters["FENCE_TYPE"])
         return {border: out_m for border, out_m in beyond.items() if border & switched_on and out_m >= 0.0}
 
-    def watch(self, pilot: Autopilot) -> None:
+    def watch(self, pilot: Copter) -> None:
         """Look once: say and do what a new crossing asks for, and say when it is over."""
         if pilot.mode is not self._mode:
             self._mode = pilot.mode
@@ -99,7 +99,7 @@ class Fence:
         elif before and not self.breached and pilot.flying:
             pilot.say(NOTICE, "Fence breach cleared")
 
-    def _cross(self, pilot: Autopilot, new: dict[Border, float]) -> None:
+    def _cross(self, pilot: Copter, new: dict[Border, float]) -> None:
         self.last, self.breached_at_s = max(new), pilot.now_s
         self.breaches += 1
         self._again_m |= {border: out_m + AGAIN_M for border, out_m in new.items()}

@@ -2,141 +2,58 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Callable, Mapping
+from enum import IntEnum
 
-from vehicle_sim.autopilot.breadcrumbs import Breadcrumbs
-from vehicle_sim.autopilot.mission import Mission
-from vehicle_sim.autopilot.modes import MODES, Mode
-from vehicle_sim.autopilot.navigation.auto import Auto
-from vehicle_sim.autopilot.navigation.guided import Guided
-from vehicle_sim.autopilot.navigation.landing import Land
-from vehicle_sim.autopilot.navigation.navigator import Navigator, Stop
-from vehicle_sim.autopilot.navigation.pilot import Leveled, Loiter, Manual
-from vehicle_sim.autopilot.navigation.rtl import ReturnHome
-from vehicle_sim.autopilot.navigation.smart_rtl import Retrace
-from vehicle_sim.autopilot.navigation.takeoff import Takeoff
-from vehicle_sim.autopilot.setpoints import Attitude, Setpoint
-from vehicle_sim.autopilot.severity import CRITICAL, WARNING
+from vehicle_sim.autopilot.navigation.navigator import Navigator
+from vehicle_sim.autopilot.setpoints import Setpoint
 from vehicle_sim.autopilot.steering import Steering
-from vehicle_sim.flight import Demand
+from vehicle_sim.flight import Demand, FlightLimits
+
+Begin = Callable[[Steering, float], Navigator]
 
 
 class Guidance:
     """What one vehicle is doing about its mode. `demand` is asked once a physics step while armed.
 
+    Args:
+        begin: for each mode, what begins to fly it. mode: the one it is in at power-on.
+
     Attributes:
-        limits: what the parameters say; a mode begins with them, DO_CHANGE_SPEED holds until the mode ends.
-        breadcrumbs: the way back of SMART_RTL.
+        limits: what the parameters say; a mode begins with them, a change of speed holds until the mode ends.
     """
 
-    def __init__(self, *, steering: Steering, mission: Mission) -> None:
+    def __init__(self, *, steering: Steering, begin: Mapping[IntEnum, Begin], mode: IntEnum) -> None:
         self.steering = steering
         self.limits = steering.airframe.limits
-        self.breadcrumbs = Breadcrumbs()
         self.navigator = Navigator(self.steering, 0.0)
-        self._mission = mission
-        self._mode = Mode.STABILIZE
-        self._takeoff: Takeoff | None = None
-        self._begin: dict[Mode, Callable[[Steering, float], Navigator]] = {
-            Mode.STABILIZE: Manual,
-            Mode.ALT_HOLD: Leveled,
-            Mode.AUTO: lambda steering, now_s: Auto(steering, now_s, mission),
-            Mode.GUIDED: Guided,
-            Mode.LOITER: Loiter,
-            Mode.RTL: ReturnHome,
-            Mode.LAND: Land,
-            Mode.POSHOLD: Loiter,
-            Mode.BRAKE: Stop,
-            Mode.SMART_RTL: lambda steering, now_s: Retrace(steering, now_s, self.breadcrumbs),
-        }
+        self.mode = mode
+        self._begin = begin
 
-    def can_enter(self, mode: Mode, *, armed: bool, flying: bool) -> bool:
-        """Whether the mode has what it needs besides a position: SMART_RTL a trail, AUTO a mission."""
-        if mode is Mode.SMART_RTL:
-            return self.breadcrumbs.active
-        if mode is not Mode.AUTO or not armed:
-            return True
-        if len(self._mission.items) < 2:
-            return False
-        restarts = self.steering.parameters["MIS_RESTART"] == 1.0
-        if flying or self._mission.begins_with_takeoff(restarts=restarts):
-            return True
-        self.steering.say(CRITICAL, "Auto: Missing Takeoff Cmd")
-        return False
-
-    def enter(self, mode: Mode, now_s: float) -> None:
-        """Begin `mode`, which `can_enter`: whatever was flown before is forgotten."""
+    def enter(self, mode: IntEnum, now_s: float) -> None:
+        """Begin `mode`: whatever was flown before is forgotten."""
         self.navigator.leave(now_s)
-        self._mode = mode
-        self._takeoff = None
+        self.mode = mode
         self._limit()
         self.navigator = self._begin[mode](self.steering, now_s)
 
-    def rest(self, now_s: float) -> None:
-        """Disarmed: what was flown is forgotten. A mission begins again, unless it was complete: as ArduCopter does."""
-        if not (isinstance(self.navigator, Auto) and self._mission.complete):
-            self.enter(self._mode, now_s)
-
     def retune(self) -> None:
-        """What the parameters allow acts at once, and ends what DO_CHANGE_SPEED asked for."""
+        """What the parameters allow acts at once, and ends a change of speed."""
         self.limits = self.steering.parameters.limits(self.limits)
         self._limit()
 
-    def take_off(self, altitude_m: float, now_s: float) -> None:
-        """Climb to `altitude_m` above home, straight up."""
-        down_m = self.steering.home_ned_m[2] - altitude_m
-        self.steering.throttle_up = True
-        self._takeoff = Takeoff(self.steering, down_m=down_m, now_s=now_s)
-
-    def follow(self, setpoint: Setpoint, now_s: float) -> None:
-        """A GUIDED setpoint. On the ground and during a takeoff it is ignored, as ArduCopter does."""
-        if (guided := self._listening) is not None:
-            guided.follow(setpoint, now_s)
-
-    def lean(self, attitude: Attitude, now_s: float) -> None:
-        """A GUIDED attitude, as `follow`."""
-        if (guided := self._listening) is not None:
-            guided.lean(attitude, now_s)
-
-    def turn(self, yaw_rad: float) -> None:
-        """Point the nose there, in GUIDED and in AUTO; a pilot turns other modes."""
-        if isinstance(self.navigator, Auto):
-            self.navigator.turn(yaw_rad)
-        elif (guided := self._listening) is not None:
-            guided.turn(yaw_rad)
-
     def pause(self, paused: bool) -> bool:
-        """Stop where it is, or go on: GUIDED can, and AUTO on its way to a waypoint."""
+        """Stop where it is, or go on, if what is flown can."""
         return self.navigator.pause(paused)
 
     def demand(self, now_s: float) -> Demand | None:
         """What to fly over the step that begins now; None: motors idle."""
-        if self._takeoff is not None:
-            return self._take_off(self._takeoff, now_s)
         demand = self.navigator.demand(now_s)
         return demand if self.navigator.taking_off or not self.steering.airframe.on_ground else None
 
     def spooled(self, now_s: float) -> bool:
         """Whether a takeoff is past its spool-up: the autopilot counts as flying from here on."""
-        return (self._takeoff or self.navigator).spooled(now_s)
-
-    def drop_crumb(self) -> None:
-        """Leave a mark on the way out, for SMART_RTL."""
-        if self._mode is Mode.SMART_RTL:
-            return
-        parameters = self.steering.parameters
-        apart_m, most = parameters["SRTL_ACCURACY"], int(parameters["SRTL_POINTS"])
-        if not self.breadcrumbs.drop(self.steering.place_ned_m, apart_m=apart_m, most=most):
-            self.steering.say(WARNING, "SmartRTL deactivated: buffer full")
-
-    @property
-    def _listening(self) -> Guided | None:
-        """GUIDED, in the air and past its takeoff."""
-        guided = self.navigator
-        if not isinstance(guided, Guided) or self.taking_off or self.steering.airframe.on_ground:
-            return None
-        return guided
+        return self.navigator.spooled(now_s)
 
     @property
     def setpoint(self) -> Setpoint:
@@ -144,30 +61,20 @@ class Guidance:
 
     @property
     def taking_off(self) -> bool:
-        return self._takeoff is not None or self.navigator.taking_off
+        return self.navigator.taking_off
 
     @property
     def lands(self) -> bool:
         """What is flown ends on the ground, where it disarms soon."""
-        return MODES[self._mode].lands or self.navigator.lands
+        return self.navigator.lands
 
     @property
     def landing(self) -> bool:
         return self.navigator.landing
 
-    def _take_off(self, takeoff: Takeoff, now_s: float) -> Demand | None:
-        demand = takeoff.demand(now_s)
-        if takeoff.done:
-            self._takeoff = None
-            if isinstance(self.navigator, Guided):
-                self.navigator.follow(Setpoint(position_ned_m=takeoff.goal_ned_m), now_s)
-        return demand
+    def limits_in(self, mode: IntEnum) -> FlightLimits:
+        """The limits that `mode` flies by."""
+        return self.limits
 
     def _limit(self) -> None:
-        """Fly by the limits of the mode: a pilot climbs and sinks at speeds of his own."""
-        limits, parameters = self.limits, self.steering.parameters
-        if MODES[self._mode].sticks:
-            up_m_s = max(0.1, parameters["PILOT_SPEED_UP"] / 100.0)
-            down_m_s = parameters["PILOT_SPEED_DN"] / 100.0 or up_m_s
-            limits = replace(limits, climb_m_s=min(100.0, up_m_s), descent_m_s=max(0.1, min(100.0, down_m_s)))
-        self.steering.airframe.set_limits(limits)
+        self.steering.airframe.set_limits(self.limits_in(self.mode))

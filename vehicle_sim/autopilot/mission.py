@@ -1,6 +1,6 @@
 """A mission's course: which item is flown now, which comes next, which was reached. Who flies it is in `navigation`.
 
-Item 0 is home, so a mission begins at 1. Ways are flown one after the other; what lies between two ways is done in
+Where item 0 is home, a mission begins at 1. Ways are flown one after the other; what lies between two ways is done in
 order, beside the flight of the second. As ArduCopter does it; texts are its own.
 """
 
@@ -32,38 +32,40 @@ class Mission:
     """The course through one stored mission.
 
     Attributes:
-        current: index of the way that is flown; 0: none yet. sides: indices still to be done beside it.
-        reached: indices to report. fresh: the current way has to be begun (again).
+        first: where a mission begins. current: index of the way that is flown; below `first`: none yet.
+        sides: indices still to be done beside it. reached: indices to report.
+        fresh: the current way has to be begun (again). say: a text (severity, words) for the ground.
     """
 
-    def __init__(self, store: Store, *, say: Callable[[int, str], None]) -> None:
+    def __init__(self, store: Store, *, first: int, say: Callable[[int, str], None]) -> None:
         self._store = store
-        self._say = say
+        self.first = first
+        self.say = say
         self._jumps: dict[int, int] = {}
         self._running = False
         self.complete = False
-        self.current = 0
+        self.current = first - 1
         self.sides: list[int] = []
         self.reached: list[int] = []
         self.fresh = False
 
     @property
     def items(self) -> tuple[Item, ...]:
-        return self._store.items
+        return self._store.flown
 
     @property
     def state(self) -> State:
-        if len(self.items) < 2:
+        if len(self.items) <= self.first:
             return State.NONE
         if self._running:
             return State.ACTIVE
         if self.complete:
             return State.COMPLETE
-        return State.PAUSED if self.current else State.NOT_STARTED
+        return State.PAUSED if self.current >= self.first else State.NOT_STARTED
 
     def begins_with_takeoff(self, *, restarts: bool) -> bool:
         """Whether the next way to fly is a takeoff, delays aside."""
-        index = 1 if restarts or self.complete else max(1, self.current)
+        index = self.first if restarts or self.complete else max(self.first, self.current)
         for _ in range(16):
             way = self._next_way(index)
             if way is None or self.items[way].command != DELAY:
@@ -78,11 +80,11 @@ class Mission:
 
     def begin(self, *, restarts: bool) -> None:
         """AUTO is entered: from the first item, or on from where it was left."""
-        if restarts or self.complete or not 0 < self.current < len(self.items):
+        if restarts or self.complete or not self.first <= self.current < len(self.items):
             self.reset()
         self.complete = False
         self._running = self.fresh = True
-        if not self.current:
+        if self.current < self.first:
             self.advance()
 
     def stop(self) -> None:
@@ -93,17 +95,17 @@ class Mission:
         """Back to the beginning: the vehicle disarmed. What is complete stays so until it begins again."""
         self._jumps.clear()
         self._running = self.fresh = False
-        self.current = 0
+        self.current = self.first - 1
         self.sides.clear()
 
     def select(self, index: int) -> bool:
         """Fly item `index` next (0: from the beginning). False if there is none."""
-        if not 0 <= index < len(self.items) or len(self.items) < 2:
+        if not 0 <= index < len(self.items) or len(self.items) <= self.first:
             return False
         if index == 0 or self.complete:
             self._jumps.clear()
         self.complete = False
-        self.current = max(1, index) - 1
+        self.current = max(self.first, index) - 1
         self.advance(announce=self._running)
         return True
 
@@ -132,15 +134,15 @@ class Mission:
         """The stored items changed: what is being flown begins again, as it is now."""
         self.sides.clear()
         if not self._running:
-            self.current = min(self.current, max(0, len(self.items) - 1))
+            self.current = min(self.current, max(self.first, len(self.items)) - 1)
         elif not is_way(self.items[self.current].command) if self.current < len(self.items) else True:
             self.advance()
         else:
             self.fresh = True
-            self._say(CRITICAL, "Auto mission changed, restarted command")
+            self.say(CRITICAL, "Auto mission changed, restarted command")
 
     def tell(self, index: int) -> None:
-        self._say(INFO, f"Mission: {index} {COMMANDS[self.items[index].command].word}")
+        self.say(INFO, f"Mission: {index} {COMMANDS[self.items[index].command].word}")
 
     def _next_way(self, index: int) -> int | None:
         jumps = dict(self._jumps)

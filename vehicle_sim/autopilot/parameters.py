@@ -1,4 +1,4 @@
-"""The parameters of an ArduCopter, in its own units: `parameters.csv` is their table and their manual.
+"""The parameters of an autopilot, and those of an ArduCopter, whose table and manual is `parameters.csv`.
 
 Types, defaults and names are those of a recorded ArduCopter 4.5.5 SITL; names of 4.7 are understood beside them. As in
 ArduCopter a range is advice for ground stations: what a parameter's C type can hold is stored, and whoever reads it
@@ -8,15 +8,14 @@ keeps to what is possible. Rows whose status is `acts` do something here; those 
 from __future__ import annotations
 
 import csv
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from importlib.resources import files
 from math import copysign, isfinite
 from typing import NamedTuple
 
-from vehicle_sim.battery import Battery
 from vehicle_sim.flight import FlightLimits
-from vehicle_sim.wind import Wind
+from vehicle_sim.vehicle import VehicleConfig
 
 TYPES = {"INT8": 2, "INT16": 4, "INT32": 6, "REAL32": 9}  # MAV_PARAM_TYPE
 REAL32 = TYPES["REAL32"]
@@ -47,8 +46,9 @@ class Row(NamedTuple):
         return self.status == "read-only"
 
 
-def _table() -> tuple[Row, ...]:
-    text = (files(__package__) / "parameters.csv").read_text(encoding="utf-8")
+def read_table(package: str) -> tuple[Row, ...]:
+    """The rows of the `parameters.csv` beside a package, in the order in which they are listed."""
+    text = (files(package) / "parameters.csv").read_text(encoding="utf-8")
     return tuple(
         Row(
             name=line["name"],
@@ -64,7 +64,7 @@ def _table() -> tuple[Row, ...]:
     )
 
 
-TABLE = _table()
+TABLE = read_table("vehicle_sim.autopilot")
 INDEX: dict[str, int] = {row.name: index for index, row in enumerate(TABLE)}
 
 
@@ -104,26 +104,74 @@ ALIASES: dict[str, Alias] = {
 Listener = Callable[[], None]
 
 
-class Parameters:
-    """One vehicle's parameters: `parameters["RTL_ALT"]` is the stored value."""
+class Catalog:
+    """The parameters of one flavor of autopilot.
 
-    def __init__(self, *, system_id: int, limits: FlightLimits, battery: Battery, wind: Wind) -> None:
-        self._values = {row.name: row.default for row in TABLE}
-        self._values |= {
-            "SYSID_THISMAV": float(system_id),
-            "BATT_CAPACITY": float(round(battery.capacity_mah)),
-            "BATT_LOW_VOLT": LOW_SHARE * battery.voltage_v,
-            "SIM_BATT_VOLTAGE": battery.voltage_v,
-            "SIM_WIND_SPD": wind.speed_m_s,
-            "SIM_WIND_DIR": wind.from_deg % 360.0,
-            "SIM_WIND_TURB": wind.gust_m_s,
-            "ANGLE_MAX": float(round(100.0 * limits.tilt_deg)),
-            "WPNAV_SPEED": 100.0 * limits.speed_m_s,
-            "WPNAV_SPEED_UP": 100.0 * limits.climb_m_s,
-            "WPNAV_SPEED_DN": 100.0 * limits.descent_m_s,
-            "WPNAV_ACCEL": 100.0 * limits.acceleration_m_s2,
-        }
+    Attributes:
+        rows: in the order of the list. index: where a name is in it.
+        aliases: other names that a ground station may use.
+        meanings: for a row's name, what else it sets: (a name of ArduCopter that shared parts read, its scale, offset).
+        given: names of ArduCopter that shared parts read, and that this flavor has no row for.
+    """
+
+    def __init__(
+        self,
+        rows: tuple[Row, ...],
+        *,
+        aliases: Mapping[str, Alias] | None = None,
+        shared: Mapping[str, Alias] | None = None,
+        given: Mapping[str, float] | None = None,
+    ) -> None:
+        self.rows = rows
+        self.index = {row.name: index for index, row in enumerate(rows)}
+        self.aliases = aliases or {}
+        self.given = given or {}
+        self.meanings: dict[str, list[tuple[str, Alias]]] = {}
+        for name, alias in (shared or {}).items():
+            self.meanings.setdefault(alias.name, []).append((name, alias))
+
+
+ARDUCOPTER_CATALOG = Catalog(TABLE, aliases=ALIASES)
+
+
+def arducopter_values(config: VehicleConfig, system_id: int) -> dict[str, float]:
+    """What differs from the defaults in a vehicle of this kind."""
+    limits, battery = config.limits, config.battery
+    return {
+        "SYSID_THISMAV": float(system_id),
+        "BATT_CAPACITY": float(round(battery.capacity_mah)),
+        "BATT_LOW_VOLT": LOW_SHARE * battery.voltage_v,
+        "ANGLE_MAX": float(round(100.0 * limits.tilt_deg)),
+        "WPNAV_SPEED": 100.0 * limits.speed_m_s,
+        "WPNAV_SPEED_UP": 100.0 * limits.climb_m_s,
+        "WPNAV_SPEED_DN": 100.0 * limits.descent_m_s,
+        "WPNAV_ACCEL": 100.0 * limits.acceleration_m_s2,
+        **surroundings(config),
+    }
+
+
+def surroundings(config: VehicleConfig) -> dict[str, float]:
+    """The SIM_* parameters of what is around an autopilot."""
+    return {
+        "SIM_BATT_VOLTAGE": config.battery.voltage_v,
+        "SIM_WIND_SPD": config.wind.speed_m_s,
+        "SIM_WIND_DIR": config.wind.from_deg % 360.0,
+        "SIM_WIND_TURB": config.wind.gust_m_s,
+    }
+
+
+class Parameters:
+    """One vehicle's parameters: `parameters["RTL_ALT"]` is the stored value.
+
+    Shared parts of the autopilots read them by ArduCopter's names; a catalog says what those are in another flavor.
+    """
+
+    def __init__(self, catalog: Catalog, values: Mapping[str, float]) -> None:
+        self.catalog = catalog
         self._listeners: dict[str, Listener] = {}
+        self._values = {row.name: row.default for row in catalog.rows} | dict(catalog.given) | dict(values)
+        for name in catalog.meanings:
+            self._mean(name)
 
     def __getitem__(self, name: str) -> float:
         return self._values[name]
@@ -136,20 +184,33 @@ class Parameters:
 
     def store(self, name: str, value: float) -> bool:
         """Store a finite `value` as its C type takes it (cut, clamped). False if it was not: read-only."""
-        row = TABLE[INDEX[name]]
+        row = self.catalog.rows[self.catalog.index[name]]
         if row.read_only or not isfinite(value):
             return False
         lowest, highest = HOLDS[row.type]
         if row.type != REAL32:
             value = int(max(lowest, min(highest, value + copysign(ROUNDING, value))))
-        self._values[name] = float(max(lowest, min(highest, value)))
-        if name in self._listeners:
-            self._listeners[name]()
+        self._put(name, float(max(lowest, min(highest, value))))
+        self._mean(name)
         return True
+
+    def suffer(self, name: str, value: float) -> None:
+        """Let something break that no row of this flavor breaks: a SIM_* parameter by ArduCopter's name."""
+        self._put(name, value)
 
     def tell(self, name: str, value: float) -> None:
         """Let a read-only parameter say what it is."""
         self._values[name] = float(value)
+
+    def _put(self, name: str, value: float) -> None:
+        self._values[name] = value
+        if name in self._listeners:
+            self._listeners[name]()
+
+    def _mean(self, name: str) -> None:
+        """Set what `name` is for the shared parts."""
+        for shared, alias in self.catalog.meanings.get(name, ()):
+            self._put(shared, alias.scale * self._values[name] + alias.offset)
 
     def limits(self, limits: FlightLimits) -> FlightLimits:
         """`limits` with what the parameters say; a value no vehicle can have is brought to the nearest it can."""

@@ -1,8 +1,8 @@
-"""Which messages flow, and when. Only HEARTBEAT does until somebody asks for more, as on a real ArduCopter link."""
+"""Which messages flow, and when. On a link of an ArduCopter only HEARTBEAT does until somebody asks for more."""
 
 from __future__ import annotations
 
-from collections.abc import Container
+from collections.abc import Container, Iterable, Mapping
 from typing import NamedTuple
 
 from vehicle_sim.autopilot.parameters import Parameters
@@ -32,12 +32,20 @@ GROUPS: dict[int, Group] = {
 ALL_GROUPS = 0
 
 
-class Streams:
-    """The rates one link asked for. A tick sends a message at most once, so the tick rate is the fastest."""
+UNASKED_S: dict[int, float] = {HEARTBEAT_ID: HEARTBEAT_PERIOD_S}
 
-    def __init__(self, *, started_at_s: float) -> None:
-        self._periods_s: dict[int, float] = {HEARTBEAT_ID: HEARTBEAT_PERIOD_S}
-        self._due_s: dict[int, float] = {HEARTBEAT_ID: started_at_s}
+
+class Streams:
+    """The rates one link asked for. A tick sends a message at most once, so the tick rate is the fastest.
+
+    Args:
+        unasked_s: the periods of what flows before anybody asks; HEARTBEAT is among them.
+    """
+
+    def __init__(self, *, started_at_s: float, unasked_s: Mapping[int, float] = UNASKED_S) -> None:
+        self.unasked_s = unasked_s
+        self._periods_s = dict(unasked_s)
+        self._due_s = dict.fromkeys(unasked_s, started_at_s)
         self._rates_hz: dict[str, float] = {}
 
     def set_period(self, message_id: int, period_s: float | None, now_s: float) -> None:
@@ -58,9 +66,9 @@ class Streams:
             if message_id in known:
                 self.set_period(message_id, period_s, now_s)
 
-    def follow(self, parameters: Parameters, known: Container[int], now_s: float) -> None:
-        """Stream as the SR0_* parameters say that have changed since the last call."""
-        for group in GROUPS.values():
+    def follow(self, groups: Iterable[Group], parameters: Parameters, known: Container[int], now_s: float) -> None:
+        """Stream as the parameters of `groups` say that have changed since the last call."""
+        for group in groups:
             rate_hz = max(0.0, parameters[group.parameter])
             if rate_hz != self._rates_hz.get(group.parameter, 0.0):
                 self._rates_hz[group.parameter] = rate_hz

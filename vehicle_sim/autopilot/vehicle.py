@@ -11,25 +11,22 @@ from pymavlink.dialects.v20 import ardupilotmega as dialect
 from comms.frames import GeoPoint
 from comms.mavlink import Endpoint
 from comms.signing import Signing
-from vehicle_sim.autopilot import parameter_protocol
 from vehicle_sim.autopilot.channel import Channel
-from vehicle_sim.autopilot.commands import Request, run, set_mode
 from vehicle_sim.autopilot.core import Autopilot
-from vehicle_sim.autopilot.courtesies import ANSWERS
+from vehicle_sim.autopilot.flavors import FLAVORS
 from vehicle_sim.autopilot.plans.desk import ROUTES, Desk
-from vehicle_sim.autopilot.setpoints import attitude_target, global_setpoint, local_setpoint
-from vehicle_sim.autopilot.sticks import Sticks, manual, overridden
-from vehicle_sim.autopilot.streams import ALL_GROUPS, GROUPS, Streams
-from vehicle_sim.autopilot.telemetry import BUILDERS
+from vehicle_sim.autopilot.request import Request
+from vehicle_sim.autopilot.streams import ALL_GROUPS, Streams
 from vehicle_sim.vehicle import VehicleConfig, VehicleTruth
 
 HEARTBEAT_ID, MISSION_CURRENT_ID, HOME_ID, ORIGIN_ID = 0, 42, 242, 49
 SET_MODE_ID = 11
 TEXT_BYTES = 50
+UNSUPPORTED = 3  # MAV_RESULT
 
 
 class SimulatedVehicle:
-    """An ArduCopter with its autopilot, in process and on the mission's clock.
+    """A multirotor with its autopilot, in process and on the mission's clock.
 
         vehicle = SimulatedVehicle(config=VehicleConfig(), system_id=1, home=GeoPoint(47.4, 8.5, 488.0))
         wire_out = vehicle.tick(0.1, wire_in)
@@ -50,7 +47,8 @@ class SimulatedVehicle:
         seed: int = 0,
         started_at_s: float = 0.0,
     ) -> None:
-        self.autopilot = Autopilot(
+        self._flavor = FLAVORS[config.flavor]
+        self.autopilot: Autopilot = self._flavor.autopilot(
             config=config,
             system_id=system_id,
             home=home,
@@ -61,28 +59,18 @@ class SimulatedVehicle:
         self.desk = Desk(self.autopilot.plans, go=self.autopilot.fly_item)
         self.channels: list[Channel] = []
         self._here = self.open_channel()  # where the message came from that is being handled; the first otherwise
-        self.autopilot.parameters.on_change(
-            ("SR0_",),
-            lambda: self.channels[0].streams.follow(self.autopilot.parameters, BUILDERS, self.autopilot.now_s),
-        )
+        self.autopilot.parameters.on_change(("SR0_",), self._follow_stream_parameters)
         self._handlers: dict[int, Callable[[Any], None]] = {
-            dialect.MAVLINK_MSG_ID_HEARTBEAT: self._on_heartbeat,
             dialect.MAVLINK_MSG_ID_SET_MODE: self._on_set_mode,
-            dialect.MAVLINK_MSG_ID_PARAM_REQUEST_READ: partial(self._on_question, parameter_protocol.read),
-            dialect.MAVLINK_MSG_ID_PARAM_REQUEST_LIST: partial(self._on_question, parameter_protocol.listed),
-            dialect.MAVLINK_MSG_ID_PARAM_SET: partial(self._on_question, parameter_protocol.written),
             dialect.MAVLINK_MSG_ID_REQUEST_DATA_STREAM: self._on_data_stream,
             dialect.MAVLINK_MSG_ID_COMMAND_INT: self._on_command_int,
             dialect.MAVLINK_MSG_ID_COMMAND_LONG: self._on_command_long,
             dialect.MAVLINK_MSG_ID_MISSION_SET_CURRENT: self._on_mission_set_current,
-            dialect.MAVLINK_MSG_ID_RC_CHANNELS_OVERRIDE: self._on_rc_override,
-            dialect.MAVLINK_MSG_ID_MANUAL_CONTROL: self._on_manual_control,
-            dialect.MAVLINK_MSG_ID_SET_ATTITUDE_TARGET: self._on_attitude_target,
-            dialect.MAVLINK_MSG_ID_SET_POSITION_TARGET_LOCAL_NED: self._on_local_target,
-            dialect.MAVLINK_MSG_ID_SET_POSITION_TARGET_GLOBAL_INT: self._on_global_target,
         }
         self._handlers |= dict.fromkeys(ROUTES, self._on_plan)
-        self._handlers |= {number: partial(self._on_question, answer) for number, answer in ANSWERS.items()}
+        flavor = self._flavor
+        self._handlers |= {number: partial(take_in, self.autopilot) for number, take_in in flavor.hearing.items()}
+        self._handlers |= {number: partial(self._on_question, answer) for number, answer in flavor.answers.items()}
 
     def tick(self, now_s: float, wire_in: bytes = b"") -> bytes:
         """Take `wire_in` at the time of the last tick, live until `now_s`, and return what it said meanwhile.
@@ -99,16 +87,17 @@ class SimulatedVehicle:
         self.autopilot.advance(now_s)
         self.desk.watch(self.autopilot.now_s)
         self._speak()
+        builders = self._flavor.builders
         for channel in self.channels:
             for message_id in channel.streams.due(self.autopilot.now_s):
-                report = BUILDERS[message_id](self.autopilot)
+                report = builders[message_id](self.autopilot)
                 if report is not None:
                     channel.endpoint.send(report)
         return first.take()
 
     def open_channel(self, *, signing: Signing | None = None) -> Channel:
         """One more link to this vehicle, beside those it has; with `signing` it hears only whom it can believe."""
-        channel = Channel(system_id=self.autopilot.system_id, started_at_s=self.autopilot.now_s, signing=signing)
+        channel = Channel(system_id=self.autopilot.system_id, streams=self._new_streams(), signing=signing)
         self.channels.append(channel)
         return channel
 
@@ -142,9 +131,9 @@ class SimulatedVehicle:
         return self.autopilot.mode.name
 
     def _receive(self, message: Any) -> None:
-        """Handle what is for this system or for everybody; the component does not matter, as on a real ArduCopter."""
+        """Handle what it knows and what is for it."""
         handler = self._handlers.get(message.get_msgId())
-        if handler is None or getattr(message, "target_system", 0) not in (0, self.endpoint.system_id):
+        if handler is None or not self._flavor.addressed(message, self.autopilot.system_id):
             return
         handler(message)
         self._speak()
@@ -158,10 +147,10 @@ class SimulatedVehicle:
         pilot.texts.clear()
         if pilot.home_news:
             pilot.home_news = False
-            news += [BUILDERS[ORIGIN_ID](pilot), BUILDERS[HOME_ID](pilot)]
+            news += [report for report in (self._report(ORIGIN_ID), self._report(HOME_ID)) if report is not None]
         if pilot.announce:
             pilot.announce = False
-            news.append(BUILDERS[HEARTBEAT_ID](pilot))
+            news.append(self._report(HEARTBEAT_ID))
         news += [dialect.MAVLink_mission_item_reached_message(index) for index in pilot.mission.reached]
         pilot.mission.reached.clear()
         for message in news:
@@ -171,14 +160,16 @@ class SimulatedVehicle:
     def _command(self, message: Any, params: tuple[float, ...], frame: int | None = None) -> None:
         replies: list[Any] = []
         request = Request(pilot=self.autopilot, streams=self.streams, params=params, frame=frame, replies=replies)
-        self._acknowledge(message, message.command, int(run(message.command, request)))
+        handler = self._flavor.commands.get(message.command)
+        result = UNSUPPORTED if handler is None else handler(request)
+        self._acknowledge(message, message.command, int(result))
         for reply in replies:
             self.endpoint.send(reply)
         if self.autopilot.restarted:
             self.autopilot.restarted = False
             for channel in self.channels:
-                channel.streams = Streams(started_at_s=self.autopilot.now_s)
-            self._on_stream_rates()
+                channel.streams = self._new_streams()
+            self._follow_stream_parameters()
 
     def _acknowledge(self, message: Any, command: int, result: int) -> None:
         self.endpoint.send(
@@ -196,57 +187,34 @@ class SimulatedVehicle:
         self._command(p, (p.param1, p.param2, p.param3, p.param4, float(p.x), float(p.y), p.z), p.frame)
 
     def _on_set_mode(self, message: Any) -> None:
-        result = set_mode(self.autopilot, message.base_mode, message.custom_mode)
+        result = self._flavor.set_mode(self.autopilot, message.base_mode, message.custom_mode)
         self._acknowledge(message, SET_MODE_ID, int(result))
-
-    def _on_heartbeat(self, message: Any) -> None:
-        if message.get_srcSystem() == self.autopilot.parameters["SYSID_MYGCS"]:
-            self.autopilot.hear_gcs()
-
-    def _on_local_target(self, message: Any) -> None:
-        belief = self.autopilot.estimate
-        position = (belief.north_m, belief.east_m, belief.down_m)
-        setpoint = local_setpoint(message, position_ned_m=position, yaw_rad=belief.yaw_rad)
-        self.autopilot.guidance.follow(setpoint, self.autopilot.now_s)
-
-    def _on_global_target(self, message: Any) -> None:
-        setpoint = global_setpoint(message, origin=self.autopilot.origin, home=self.autopilot.home)
-        self.autopilot.guidance.follow(setpoint, self.autopilot.now_s)
-
-    def _on_attitude_target(self, message: Any) -> None:
-        attitude = attitude_target(message)
-        if attitude is not None:
-            self.autopilot.guidance.lean(attitude, self.autopilot.now_s)
 
     def _on_plan(self, message: Any) -> None:
         self.desk.handle(message, self.endpoint.send, self.autopilot.now_s)
 
     def _on_mission_set_current(self, message: Any) -> None:
         if self.autopilot.mission.select(message.seq):
-            self.endpoint.send(BUILDERS[MISSION_CURRENT_ID](self.autopilot))
-
-    def _on_rc_override(self, message: Any) -> None:
-        self._on_sticks(message, overridden)
-
-    def _on_manual_control(self, message: Any) -> None:
-        if message.target == self.endpoint.system_id:
-            self._on_sticks(message, manual)
-
-    def _on_sticks(self, message: Any, read: Callable[[Sticks, Any], Sticks]) -> None:
-        """Only the ground station of SYSID_MYGCS is a pilot, as on a real ArduCopter."""
-        if message.get_srcSystem() == self.autopilot.parameters["SYSID_MYGCS"]:
-            self.autopilot.take_sticks(read(self.autopilot.guidance.steering.sticks, message))
+            self.endpoint.send(self._report(MISSION_CURRENT_ID))
 
     def _on_data_stream(self, message: Any) -> None:
         rate_hz = message.req_message_rate if message.start_stop else 0
-        everything = tuple(GROUPS) if message.req_stream_id == ALL_GROUPS else (message.req_stream_id,)
+        groups = self._flavor.groups
+        everything = tuple(groups) if message.req_stream_id == ALL_GROUPS else (message.req_stream_id,)
         for number in everything:
-            if number in GROUPS:
-                self.streams.set_group(GROUPS[number], rate_hz, BUILDERS, self.autopilot.now_s)
+            if number in groups:
+                self.streams.set_group(groups[number], rate_hz, self._flavor.builders, self.autopilot.now_s)
 
-    def _on_stream_rates(self) -> None:
+    def _follow_stream_parameters(self) -> None:
         """The rates of the first channel are parameters, too."""
-        self.channels[0].streams.follow(self.autopilot.parameters, BUILDERS, self.autopilot.now_s)
+        flavor, pilot = self._flavor, self.autopilot
+        self.channels[0].streams.follow(flavor.groups.values(), pilot.parameters, flavor.builders, pilot.now_s)
+
+    def _new_streams(self) -> Streams:
+        return Streams(started_at_s=self.autopilot.now_s, unasked_s=self._flavor.unasked_s)
+
+    def _report(self, message_id: int) -> Any:
+        return self._flavor.builders[message_id](self.autopilot)
 
     def _on_question(self, answer: Callable[[Autopilot, Any], Iterable[Any]], message: Any) -> None:
         """Answer while there is room: a thousand requests for all parameters cost no more than a few."""

@@ -36,6 +36,7 @@ class Leg(Navigator):
     def __init__(self, steering: Steering, now_s: float, item: Item, mission: Mission) -> None:
         super().__init__(steering, now_s)
         self.item = item
+        self.mission = mission
         self.index = mission.current
         self.goal_ned_m: Vec3 = steering.ned_from_item(item)
         self.yaw_rad: float | None = None
@@ -97,7 +98,7 @@ class WaypointLeg(Leg):
             self._there_at_s = min(self._there_at_s, now_s)
         if now_s - self._there_at_s < int(max(0.0, self.item.param1)) - TIME_SLACK_S:
             return False
-        self.steering.say(INFO, f"Reached command #{self.index}")
+        self.mission.say(INFO, f"Reached command #{self.index}")
         return True
 
     def demand(self, now_s: float) -> Demand:
@@ -198,7 +199,7 @@ class DelayLeg(Leg):
         super().__init__(steering, now_s, item, mission)
         self.goal_ned_m = steering.place_ned_m
         self._until_s = now_s + max(0.0, item.param1)
-        steering.say(INFO, f"Delaying {int(max(0.0, item.param1))} sec")
+        mission.say(INFO, f"Delaying {int(max(0.0, item.param1))} sec")
 
     def done(self, now_s: float) -> bool:
         return now_s >= self._until_s - TIME_SLACK_S

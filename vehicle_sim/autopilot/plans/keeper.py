@@ -8,7 +8,8 @@ from comms.frames import GeoPoint
 from vehicle_sim.autopilot.mission import Mission, State
 from vehicle_sim.autopilot.parameters import Parameters
 from vehicle_sim.autopilot.plans.item import Item
-from vehicle_sim.autopilot.plans.store import KINDS, Store
+from vehicle_sim.autopilot.plans.rules import PlanRules
+from vehicle_sim.autopilot.plans.store import Store
 
 
 class Keeper:
@@ -20,11 +21,17 @@ class Keeper:
     """
 
     def __init__(
-        self, *, parameters: Parameters, say: Callable[[int, str], None], home: Callable[[], GeoPoint]
+        self,
+        rules: PlanRules,
+        *,
+        parameters: Parameters,
+        say: Callable[[int, str], None],
+        home: Callable[[], GeoPoint],
     ) -> None:
-        self.stores = tuple(Store(kind) for kind in KINDS)
+        self.rules = rules
+        self.stores = tuple(Store(kind) for kind in rules.kinds)
         self.missions, self.fences, self.rallies = self.stores
-        self.mission = Mission(self.missions, say=say)
+        self.mission = Mission(self.missions, first=rules.first, say=say if rules.talks else _silence)
         self.say = say
         self.home = home
         self._parameters = parameters
@@ -39,6 +46,11 @@ class Keeper:
     def replace(self, store: Store, items: tuple[Item, ...]) -> None:
         """A plan has come, or was cleared."""
         store.put(items)
-        self._parameters.tell(store.kind.total, len(items))
+        if store.kind.total:
+            self._parameters.tell(store.kind.total, len(items))
         if store is self.missions:
             self.mission.changed()
+
+
+def _silence(severity: int, text: str) -> None:
+    """What a mission has to say, where nobody says it."""

@@ -53,18 +53,20 @@ class Kind(NamedTuple):
 
     Attributes:
         number: MAV_MISSION_TYPE. name: as the texts say it. most: items that fit.
-        total: the read-only parameter that counts them. received: what is said when a new one has come.
+        total: the read-only parameter that counts them, if any. received: what is said when a new one has come.
         missing: the answer to a request beyond the last item. home_first: item 0 is home.
+        flown: an item as it is flown, where that is not as it was sent.
     """
 
     number: int
     name: str
     most: int
-    total: str
+    total: str | None
     accepts: Callable[[Item, int], Answer]
     received: str = ""
     missing: Answer = Answer.INVALID_SEQUENCE
     home_first: bool = False
+    flown: Callable[[Item], Item] | None = None
 
 
 def _mission_item(item: Item, count: int) -> Answer:
@@ -112,23 +114,25 @@ MISSION = Kind(
 )
 FENCE = Kind(1, "Fence", 84, "FENCE_TOTAL", _fence_item)
 RALLY = Kind(2, "Rally", 20, "RALLY_TOTAL", _rally_item, "Rally points received")
-KINDS: tuple[Kind, ...] = (MISSION, FENCE, RALLY)
+KINDS: tuple[Kind, Kind, Kind] = (MISSION, FENCE, RALLY)
 
 
 class Store:
     """One plan as it is kept.
 
     Attributes:
-        version: grows whenever the items change.
+        items: as they were sent. flown: as they are flown. version: grows whenever they change.
     """
 
     def __init__(self, kind: Kind) -> None:
         self.kind = kind
         self.items: tuple[Item, ...] = ()
+        self.flown: tuple[Item, ...] = ()
         self.version = 0
 
     def put(self, items: tuple[Item, ...]) -> None:
         self.items = items
+        self.flown = items if self.kind.flown is None else tuple(map(self.kind.flown, items))
         self.version += 1
 
 

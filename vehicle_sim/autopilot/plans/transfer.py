@@ -1,8 +1,8 @@
 """The mission protocol, sans-io: one plan goes up (we ask for item after item) or down (we are asked).
 
-As in ArduCopter 4.5: an upload asks with MISSION_REQUEST, takes items with float and with integer places, asks again
-after 1 s, gives up after 8 s without an item, and belongs to who began it. Unlike there, a plan is replaced as a whole
-when its last item has come: an upload that breaks off leaves the old plan.
+An upload takes items with float and with integer places, asks again, gives up in the end, and belongs to who began it;
+`rules` has what it asks with and when. A plan is replaced as a whole when its last item has come, unlike in ArduCopter:
+an upload that breaks off leaves the old plan.
 """
 
 from __future__ import annotations
@@ -17,9 +17,6 @@ from vehicle_sim.autopilot.plans.item import Item, as_float, as_int, home_item, 
 from vehicle_sim.autopilot.plans.keeper import Keeper
 from vehicle_sim.autopilot.plans.store import FENCE, Answer, Store, polygons_closed
 from vehicle_sim.autopilot.severity import INFO, WARNING
-
-ASK_AGAIN_S = 1.0
-GIVE_UP_S = 8.0
 
 Send = Callable[[Any], None]
 Address = tuple[int, int]  # system and component
@@ -44,6 +41,7 @@ class Transfer:
     def __init__(self, store: Store, keeper: Keeper) -> None:
         self.store = store
         self._keeper = keeper
+        self._rules = keeper.rules
         self._upload: Upload | None = None
 
     # Down.
@@ -95,7 +93,8 @@ class Transfer:
         if upload is None:
             self._acknowledge(send, source, Answer.ERROR)
         elif message.seq != upload.next_seq:
-            self._acknowledge(send, source, Answer.INVALID_SEQUENCE)
+            if self._rules.strict:
+                self._acknowledge(send, source, Answer.INVALID_SEQUENCE)
         elif source != upload.source:
             self._acknowledge(send, source, Answer.DENIED)
         else:
@@ -117,10 +116,10 @@ class Transfer:
         upload = self._upload
         if upload is None:
             return
-        if now_s - upload.heard_at_s > GIVE_UP_S:
+        if now_s - upload.heard_at_s > self._rules.give_up_s:
             self._keeper.say(WARNING, f"{self.store.kind.name} upload timeout")
             self._end(upload, Answer.CANCELLED)
-        elif now_s - upload.asked_at_s > ASK_AGAIN_S:
+        elif now_s - upload.asked_at_s > self._rules.ask_again_s:
             self._ask(upload, now_s)
 
     def _begin(self, source: Address, send: Send, items: list[Item], first: int, last: int, now_s: float) -> None:
@@ -129,7 +128,7 @@ class Transfer:
 
     def _ask(self, upload: Upload, now_s: float) -> None:
         upload.asked_at_s = now_s
-        upload.send(dialect.MAVLink_mission_request_message(*upload.source, upload.next_seq, self.store.kind.number))
+        upload.send(self._rules.ask(*upload.source, upload.next_seq, self.store.kind.number))
 
     def _take(self, upload: Upload, item: Item, now_s: float) -> None:
         count = max(len(upload.items), upload.last_seq + 1)
@@ -152,7 +151,7 @@ class Transfer:
 
     def _complete(self, send: Send, source: Address, items: tuple[Item, ...]) -> None:
         self._upload = None
-        if self.store.kind is FENCE and not polygons_closed(items):
+        if self.store.kind.number == FENCE.number and not polygons_closed(items):
             self._acknowledge(send, source, Answer.ERROR)
             return
         self._keeper.replace(self.store, items)

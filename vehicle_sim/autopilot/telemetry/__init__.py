@@ -1,7 +1,8 @@
 """What the autopilot reports: one builder per MAVLink message, and the table of them by message id.
 
 A builder returns None when there is nothing to report yet. Every field is clamped to its wire type. `state` says what
-the autopilot does, `motion` where it believes to be, `sensed` what its sensors read.
+the autopilot does, `motion` where it believes to be, `sensed` what its sensors read, `copter` what only an ArduCopter
+says so.
 """
 
 from __future__ import annotations
@@ -9,14 +10,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from vehicle_sim.autopilot.core import Autopilot
-from vehicle_sim.autopilot.telemetry import motion, sensed, state
+from vehicle_sim.autopilot.telemetry import copter, motion, sensed, state
 
-Builder = Callable[[Autopilot], Any]
+Builder = Callable[[Any], Any]  # from an autopilot of the flavor whose table it is in
 
-BUILDERS: dict[int, Builder] = {
-    0: state.heartbeat,
-    1: state.sys_status,
+SHARED: dict[int, Builder] = {
     2: state.system_time,
     24: sensed.gps_raw_int,
     26: sensed.scaled_imu,
@@ -27,17 +25,13 @@ BUILDERS: dict[int, Builder] = {
     32: motion.local_position_ned,
     33: motion.global_position_int,
     36: state.servo_output_raw,
-    42: state.mission_current,
     49: motion.gps_global_origin,
     65: state.rc_channels,
     74: motion.vfr_hud,
     85: motion.position_target_local_ned,
     116: sensed.scaled_imu2,
     125: state.power_status,
-    147: state.battery_status,
-    148: state.autopilot_version,
     152: state.meminfo,
-    162: state.fence_status,
     163: sensed.ahrs,
     164: sensed.simstate,
     168: sensed.wind,
@@ -46,4 +40,14 @@ BUILDERS: dict[int, Builder] = {
     241: sensed.vibration,
     242: motion.home_position,
     245: state.extended_sys_state,
+}
+
+# Those of an ArduCopter.
+BUILDERS: dict[int, Builder] = SHARED | {
+    0: copter.heartbeat,
+    1: copter.sys_status,
+    42: copter.mission_current,
+    147: copter.battery_status,
+    148: copter.autopilot_version,
+    162: copter.fence_status,
 }

@@ -7,6 +7,9 @@ from math import pi
 from comms.frames import GeoPoint, Vec3, geo_from_enu
 from vehicle_sim.autopilot.core import Autopilot
 
+# HEARTBEAT.base_mode (MAV_MODE_FLAG).
+CUSTOM_MODE, AUTO_ENABLED, GUIDED_ENABLED, STABILIZED, MANUAL_INPUT, SAFETY_ARMED = 1, 4, 8, 16, 64, 128
+
 
 def boot_ms(pilot: Autopilot) -> int:
     """Milliseconds since power-on; wraps after 49 days, as the wire type does."""
@@ -32,6 +35,13 @@ def heading_deg(pilot: Autopilot) -> float:
 def throttle(pilot: Autopilot) -> float:
     """Share of full throttle: 34 % hovering, as recorded."""
     return min(1.0, 0.34 * pilot.charge.current_a / pilot.charge.battery.hover_current_a)
+
+
+def remaining_percent(pilot: Autopilot, capacity_mah: float) -> int:
+    """What the autopilot believes to be left of a battery of `capacity_mah`, less what was drawn."""
+    if capacity_mah <= 0.0:
+        return 0
+    return round(100.0 * max(0.0, 1.0 - pilot.charge.consumed_mah / capacity_mah))
 
 
 def wire_place(where: GeoPoint) -> tuple[int, int, int]:
