@@ -205,8 +205,8 @@ def _corners_fence_the_start(mission: Mission) -> str | None:
 
 def _search_has_few_cells(mission: Mission) -> str | None:
     area, side_m = mission.arena.area, min(mission.agents.sensing_ranges_m)
-    cells = 4 * area.half_x_m * area.half_y_m / (side_m * side_m)
-    if mission.policy.explore != "stale-first" or cells <= MOST_CELLS:
+    few = 4 * area.half_x_m * area.half_y_m <= MOST_CELLS * side_m * side_m
+    if few or mission.policy.explore != "stale-first":
         return None
     return "persistent-walk in an arena that is so large beside agents.sensing.range_m"
 
