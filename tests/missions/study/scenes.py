@@ -16,6 +16,8 @@ from missions.study.engine import fly_setup, setup_of
 
 AS_PRINTED = "policy={call: predicted, answer_gate: in_time, capture: worst_case, help_margin_s: 2, memory_s: 0}"
 DEFAULT = "policy={}"
+# What theorem 2 assumes: perfect prediction, and the optimal assignment of help calls.
+ALL_KNOWING = AS_PRINTED.replace("}", ", predictor: perfect, horizon_s: 120, answering: optimal}")
 POLICIES = {"as printed": AS_PRINTED, "default": DEFAULT}
 NARROW = "agents.deployment.radius_m=5"
 
