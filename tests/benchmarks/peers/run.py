@@ -103,8 +103,8 @@ def run_study(python: str) -> int:
     if find_spec(STUDY) is None:
         print(f"our study: {STUDY} is not there")
         return 0
-    print(f"our study (python -m {STUDY}):", flush=True)
-    return subprocess.run([python, "-m", STUDY], check=False).returncode
+    print(f"our study (python -m {STUDY} --quick):", flush=True)
+    return subprocess.run([python, "-m", STUDY, "--quick"], check=False).returncode
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
