@@ -35,7 +35,12 @@ class AirCount:
 
 
 class Air:
-    """The medium of one mission. Frames gather in `tx/*`; `carry` moves them once a tick."""
+    """The medium of one mission. Frames gather in `tx/*`; `carry` moves them once a tick.
+
+    Attributes:
+        count: totals. links: pairs (a, b), a < b, that heard each other in the last tick. due: how many frames the last
+            `carry` sent to each radio, by uid.
+    """
 
     def __init__(self, bus: Bus, *, keys: Keys, model: LinkModel, n_agents: int, tick_s: float, seed: int) -> None:
         self._model = model
@@ -49,6 +54,7 @@ class Air:
         self._puts: dict[tuple[int, int], Put] = {}  # by (dst, src), declared when first needed
         self.count = AirCount()
         self.links: tuple[tuple[int, int], ...] = ()
+        self.due = [0] * n_agents
         bus.subscribe(keys.every_tx, self._hear)
 
     def _hear(self, key: str, payload: bytes) -> None:
@@ -80,13 +86,14 @@ class Air:
                 else:
                     self._under_way.append((due, dst, src, payload))
         self._spoken.clear()
-        delivered = 0
+        self.due = [0] * self._n_agents
         links = set()
         while self._under_way and self._under_way[0][0] <= tick + 1:
             _, dst, src, payload = self._under_way.popleft()
             self._deliver(dst, src, payload)
             links.add((src, dst) if src < dst else (dst, src))
-            delivered += 1
+            self.due[dst] += 1
+        delivered = sum(self.due)
         count.delivered += delivered
         self.links = tuple(sorted(links))
         return delivered

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from math import atan2, cos, radians
 
 from comms.air import Air, LinkModel
@@ -132,9 +132,10 @@ def _nets(mission: Mission) -> tuple[Net, Net]:
     return weights.pair.net, weights.triple.net
 
 
-def agents(mission: Mission, n_targets: int) -> list[Agent]:
-    """Every agent, by uid."""
+def agents(mission: Mission, uids: Iterable[int], n_targets: int) -> list[Agent]:
+    """These agents of a mission."""
     shared, around = params(mission), fence(mission)
+    firsts = headings(mission)
     ttl_s = mission.radio.latency_s + FRAME_LIVES_TICKS * mission.tick_s
     return [
         Agent(
@@ -144,7 +145,7 @@ def agents(mission: Mission, n_targets: int) -> list[Agent]:
                 params=with_range(shared, mission.agents.sensing_ranges_m[uid]),
                 n_agents=mission.agents.count,
                 n_targets=n_targets,
-                heading=first,
+                heading=firsts[uid],
                 ttl_s=ttl_s,
                 pilot=PilotConfig(
                     uid=uid,
@@ -165,7 +166,7 @@ def agents(mission: Mission, n_targets: int) -> list[Agent]:
                 ),
             )
         )
-        for uid, first in enumerate(headings(mission))
+        for uid in uids
     ]
 
 
@@ -187,12 +188,12 @@ def fence(mission: Mission) -> Fence:
     return polygon([(east, north), (-east, north), (-east, -north), (east, -north)])
 
 
-def vehicles(mission: Mission, pilots: Sequence[Pilot], transports: Mapping[int, Transport]) -> list[Vehicle]:
-    """Every agent's vehicle, by uid: behind its open transport, or simulated.
+def vehicles(mission: Mission, pilots: Iterable[Pilot], transports: Mapping[int, Transport]) -> list[Vehicle]:
+    """These pilots' vehicles: behind their open transports, by uid, or simulated.
 
     A simulated one stands at its own home and was just switched on.
     """
-    vehicle, places = mission.vehicle, deployment(mission)
+    vehicle, places, homes, firsts = mission.vehicle, deployment(mission), pads(mission), headings(mission)
     config = VehicleConfig(
         kind="ideal" if vehicle.kind == "ideal" else "simulated",
         boot_s=vehicle.boot_s,
@@ -201,15 +202,17 @@ def vehicles(mission: Mission, pilots: Sequence[Pilot], transports: Mapping[int,
         battery=Battery(**vehicle.battery.model_dump()),
     )
     parts: list[Vehicle] = []
-    for uid, (pad, (east, north)) in enumerate(zip(pads(mission), headings(mission), strict=True)):
+    for pilot in pilots:
+        uid = pilot.config.uid
         if uid in transports:
-            parts.append(LinkedVehicle(transports[uid], pilot=pilots[uid], pad_m=(*places[uid], 0.0)))
+            parts.append(LinkedVehicle(transports[uid], pilot=pilot, pad_m=(*places[uid], 0.0)))
             continue
+        east, north = firsts[uid]
         parts.append(
             SimulatedVehicle(
                 config=config,
                 system_id=uid + 1,
-                home=pad,
+                home=homes[uid],
                 heading_rad=atan2(east, north),
                 seed=mission.seed,
                 started_at_s=0.0,

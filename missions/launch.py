@@ -72,7 +72,7 @@ def launch(mission: Mission, *, options: LaunchOptions) -> int:
         flight = Flight(mission, bus, transports)
         began_s = time.monotonic()
         kept = _fly(flight, metrics, request, console, options)
-        report = make_report(flight, metrics, wall_s=time.monotonic() - began_s, recording=options.record)
+        report = make_report(flight.side, metrics, wall_s=time.monotonic() - began_s, recording=options.record)
     if options.report == "-":
         sys.stdout.write(as_json(report))
     elif options.report is not None:
@@ -95,7 +95,11 @@ def _fly(flight: Flight, metrics: Metrics, request: StopRequest, console: Consol
         observers: list[Observer] = [*links, metrics]
         if mission.in_real_time:
             observers.append(EventLog(console))
-        recorder = recorder_of(flight, options) if options.record is not None or options.view else None
+        recorder = (
+            recorder_of(mission, len(flight.world.places), options)
+            if options.record is not None or options.view
+            else None
+        )
         if recorder is not None:
             try:
                 recorder.__enter__()
@@ -163,8 +167,8 @@ def _pace(mission: Mission, options: LaunchOptions) -> Pace:
     return Lockstep() if isinf(options.speed) else RealTime(tick_s=mission.tick_s, speed=options.speed)
 
 
-def recorder_of(flight: Flight, options: LaunchOptions) -> Recorder:
-    """The recorder of a flight, not yet open.
+def recorder_of(mission: Mission, n_targets: int, options: LaunchOptions) -> Recorder:
+    """The recorder of a mission, not yet open.
 
     Raises:
         InputError: this installation cannot record.
@@ -173,7 +177,6 @@ def recorder_of(flight: Flight, options: LaunchOptions) -> Recorder:
         from missions.recording import Recorder, Scene
     except ModuleNotFoundError as error:
         raise InputError(str(error)) from error
-    mission = flight.mission
     scene = Scene(
         mission_name=mission.name,
         mission_yaml=dump_mission(mission),
@@ -183,7 +186,7 @@ def recorder_of(flight: Flight, options: LaunchOptions) -> Recorder:
         tick_s=mission.tick_s,
         arena=mission.arena.area,
         n_agents=mission.agents.count,
-        n_targets=len(flight.world.places),
+        n_targets=n_targets,
         sensing_range_m=mission.agents.sensing.range_m,
         home=mission.home.place,
         ceiling_m=max(mission.agents.altitude.of_agent(uid) for uid in range(mission.agents.count)),

@@ -13,10 +13,9 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from missions.flight import Flight
 from missions.metrics import Metrics
 from missions.plan import coverage_floor
-from vehicle_sim.autopilot import SimulatedVehicle
+from missions.sides.world import WorldSide
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -27,16 +26,14 @@ PACKAGES = ("swarm-mission-stack", "eclipse-zenoh", "pymavlink")
 _DIGITS = 6
 
 
-def make_report(flight: Flight, metrics: Metrics, *, wall_s: float, recording: Path | None) -> Report:
+def make_report(side: WorldSide, metrics: Metrics, *, wall_s: float, recording: Path | None) -> Report:
     """Everything worth keeping of a flight that has ended."""
-    mission = flight.mission
-    n_agents, n_targets = mission.agents.count, len(flight.world.places)
-    duration_s = flight.ticks_flown * mission.tick_s
-    coverage = flight.coverage.mean
-    count = flight.air.count
-    endpoints = [agent.pilot.endpoint for agent in flight.agents]
-    simulated = [vehicle for vehicle in flight.vehicles if isinstance(vehicle, SimulatedVehicle)]
-    vehicles = [channel.endpoint for vehicle in simulated for channel in vehicle.channels]
+    mission = side.mission
+    n_agents, n_targets = mission.agents.count, len(side.world.places)
+    duration_s = side.ticks_flown * mission.tick_s
+    coverage = side.coverage.mean
+    count = side.air.count
+    pilots, vehicles = [done.pilot for done in side.dones], [done.vehicle for done in side.dones]
     return {
         "mission": mission.name,
         "policy": mission.policy.name,
@@ -45,7 +42,7 @@ def make_report(flight: Flight, metrics: Metrics, *, wall_s: float, recording: P
         "targets": n_targets,
         "duration_s": _rounded(duration_s),
         "coverage": _rounded(coverage),
-        "coverage_late": _rounded(flight.coverage.late),
+        "coverage_late": _rounded(side.coverage.late),
         "coverage_floor": _rounded(coverage_floor(mission)),
         "utilization": None if coverage is None else _rounded(coverage * n_targets / n_agents),
         "events": asdict(metrics.events),
@@ -58,10 +55,10 @@ def make_report(flight: Flight, metrics: Metrics, *, wall_s: float, recording: P
             "bytes": count.bytes,
         },
         "mavlink": {
-            "sent": sum(end.sent for end in endpoints),
-            "received": sum(end.received for end in endpoints),
-            "bad": sum(end.bad for end in endpoints),
-            "dropped": sum(end.dropped for end in endpoints),
+            "sent": sum(end.sent for end in pilots),
+            "received": sum(end.received for end in pilots),
+            "bad": sum(end.bad for end in pilots),
+            "dropped": sum(end.dropped for end in pilots),
             "vehicles": {
                 "received": sum(end.received for end in vehicles),
                 "bad": sum(end.bad for end in vehicles),
@@ -73,7 +70,7 @@ def make_report(flight: Flight, metrics: Metrics, *, wall_s: float, recording: P
         "versions": versions(PACKAGES),
         "timing": {
             "wall_s": round(wall_s, 3),
-            "realtime_factor": round(flight.clock_s / wall_s, 2) if wall_s > 0 else None,
+            "realtime_factor": round(side.clock_s / wall_s, 2) if wall_s > 0 else None,
             "tick_late_s_max": round(metrics.tick_late_s_max, 4),
         },
     }

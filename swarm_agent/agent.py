@@ -78,9 +78,9 @@ class Agent:
         self.pilot = Pilot(config.pilot)
 
     @property
-    def ready(self) -> bool:
-        """On its layer, and waiting for the mission to begin."""
-        return self.pilot.state.ready
+    def uid(self) -> int:
+        """Its number, from 0."""
+        return self._config.uid
 
     def tick(
         self, now_s: float, order: Order, sightings: Sequence[Sighting], inbox: Sequence[Frame], telemetry: bytes

@@ -41,7 +41,7 @@ PARTS = {
     "agents: frames and status": (("agent.py", "_say"), ("agent.py", "_tell")),
     "radio out: encoding, zenoh": (("radio.py", "send"), ("air.py", "carry")),
     "vehicles: flight, telemetry, commands": (("vehicle.py", "tick"),),
-    "metrics and observation": (("flight.py", "_observe"), ("metrics.py", "observe")),
+    "metrics and observation": (("world.py", "_observe"), ("metrics.py", "observe")),
 }
 
 
@@ -54,7 +54,7 @@ def fly(mission: Mission, record: Path | None) -> tuple[float, Flight]:
         if record is None:
             flight.run(pace=Lockstep(), observers=observers, stop=lambda: False)
         else:
-            with recorder_of(flight, LaunchOptions(record=record)) as recorder:
+            with recorder_of(mission, len(flight.world.places), LaunchOptions(record=record)) as recorder:
                 flight.run(pace=Lockstep(), observers=[*observers, recorder], stop=lambda: False)
         return time.perf_counter() - began_s, flight
 

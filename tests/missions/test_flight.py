@@ -51,7 +51,7 @@ def fly(name: str, *changes: str, stop_at_s: float = 1e9) -> tuple[Flight, Notes
     with open_local_bus() as bus:
         flight = Flight(mission, bus)
         flight.run(pace=Lockstep(), observers=[metrics, notes], stop=lambda: flight.clock_s >= stop_at_s)
-    return flight, notes, make_report(flight, metrics, wall_s=1.0, recording=None)
+    return flight, notes, make_report(flight.side, metrics, wall_s=1.0, recording=None)
 
 
 def without_timing(report: Report) -> Report:

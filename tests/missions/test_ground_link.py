@@ -137,7 +137,7 @@ def flown(observers: Callable[[Flight], list[Observer]]) -> dict[str, Any]:
     with open_local_bus() as bus:
         flight = Flight(mission, bus)
         flight.run(pace=Lockstep(), observers=[metrics, *observers(flight)], stop=lambda: False)
-        report = make_report(flight, metrics, wall_s=1.0, recording=None)
+        report = make_report(flight.side, metrics, wall_s=1.0, recording=None)
     del report["timing"]
     return report
 

@@ -91,7 +91,7 @@ def fly(mission: Mission, pipes: dict[int, Pipe], *others: Observer) -> tuple[Fl
     with open_local_bus() as bus:
         flight = Flight(mission, bus, pipes)
         flight.run(pace=Lockstep(), observers=[metrics, log, *others], stop=lambda: False)
-    return flight, log, make_report(flight, metrics, wall_s=1.0, recording=None)
+    return flight, log, make_report(flight.side, metrics, wall_s=1.0, recording=None)
 
 
 def test_vehicles_elsewhere_fly_the_mission_from_where_they_stand() -> None:

@@ -35,7 +35,7 @@ def test_every_policy_flies(name: str) -> None:
     with open_local_bus() as bus:
         flight = Flight(mission(name, "targets.count=6"), bus)
         flight.run(pace=Lockstep(), observers=[metrics], stop=lambda: False)
-    report = make_report(flight, metrics, wall_s=1.0, recording=None)
+    report = make_report(flight.side, metrics, wall_s=1.0, recording=None)
     assert flight.complete
     assert report["faults"] == []
     assert report["policy"] == name

@@ -1,0 +1,62 @@
+"""What the world and an agent tell each other in a tick: values, which travel as MessagePack where they must.
+
+A `Cue` begins tick k for one agent; its `Done` tells what came of it, with the vehicle as it is at k + 1. The `Done`
+before the first cue, of tick -1, says that an agent is there.
+"""
+
+from __future__ import annotations
+
+import msgspec
+
+from comms.messages import Sighting
+from comms.status import AgentStatus
+from missions.observation import AgentTruth
+
+HELLO_TICK = -1
+
+
+class Cue(msgspec.Struct, frozen=True, kw_only=True, array_like=True):
+    """The world to one agent: this tick begins.
+
+    Attributes:
+        tick: ticks since power-on. mission_tick: since MISSION began; None outside it.
+        come_home: the mission is over: return and land.
+        sightings: what the agent's sensor sees now.
+        frames: how many have been sent to its radio for this tick; None where nobody waits for them (real time).
+    """
+
+    tick: int
+    mission_tick: int | None = None
+    come_home: bool = False
+    sightings: tuple[Sighting, ...] = ()
+    frames: int | None = 0
+
+
+class LinkCount(msgspec.Struct, frozen=True, array_like=True):
+    """MAVLink messages of one end of a link so far."""
+
+    sent: int = 0
+    received: int = 0
+    bad: int = 0
+    dropped: int = 0
+
+
+class Done(msgspec.Struct, frozen=True, kw_only=True, array_like=True):
+    """One agent to the world: this tick is done.
+
+    Attributes:
+        status: as it sees itself. truth, on_ground: its vehicle as it is at the next tick.
+        spoke: it has sent a frame. ready: on its layer, waiting for the mission.
+        unheard: its pilot has given up and its vehicle is not heard: it will not end otherwise.
+        pilot, vehicle: MAVLink so far, of the agent and of its vehicle if that is simulated.
+    """
+
+    tick: int
+    status: AgentStatus
+    truth: AgentTruth
+    on_ground: bool
+    spoke: bool = False
+    ready: bool = False
+    unheard: bool = False
+    pilot: LinkCount = LinkCount()
+    vehicle: LinkCount = LinkCount()
