@@ -103,7 +103,7 @@ def params(mission: Mission) -> Params:
         sensing_range_m=mission.agents.sensing.range_m,
         agent_speed_m_s=mission.agents.speed_m_s,
         target_speed_m_s=target_speed,
-        standoff_m=policy.standoff_m,
+        standoff_m=mission.standoff_m,
         turn_time_s=policy.turn_time_s,
         horizon_s=policy.horizon_s,
         help_margin_s=policy.help_margin_s,

@@ -101,7 +101,7 @@ def _ideal_radio_is_prompt(mission: Mission) -> str | None:
 
 def _standoff_in_sight(mission: Mission) -> str | None:
     nearest_m = min(mission.agents.sensing_ranges_m)
-    return None if mission.policy.standoff_m < nearest_m else f"less than {_range_words(mission, nearest_m)}"
+    return None if mission.standoff_m < nearest_m else f"less than {_range_words(mission, nearest_m)}"
 
 
 def _range_words(mission: Mission, range_m: float) -> str:

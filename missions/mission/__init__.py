@@ -103,3 +103,11 @@ class Mission(Part):
         """How far a target notices an agent: its own range, or else the agents'."""
         own = self.targets.sensing_range_m if isinstance(self.targets, MovingTargets) else None
         return max(self.agents.sensing_ranges_m) if own is None else own
+
+    @property
+    def standoff_m(self) -> float:
+        """How far behind a target its follower flies: a sector looks ahead, and does not see what is right below."""
+        if self.policy.standoff_m is not None:
+            return self.policy.standoff_m
+        sensing = self.agents.sensing
+        return sensing.range_m / 3 if sensing.field_of_view == "sector" and sensing.opening_deg < 360 else 0.0

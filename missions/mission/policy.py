@@ -36,8 +36,8 @@ class Policy(Part):
     """How long a lost target is remembered at its predicted place."""
     explore: Literal["persistent-walk", "stale-first"] = "persistent-walk"
     """How idle agents search: a walk with a steady heading, or to the place not seen for longest."""
-    standoff_m: NonNegative = 0.0
-    """Distance kept to a followed target; 0: right above it."""
+    standoff_m: NonNegative | None = None
+    """Distance kept to a followed target; 0: right above it; none: 0, or with a sector a third of its range."""
     turn_time_s: Span = 0.5
     """Time an agent takes to turn (delta of eq. 13)."""
     horizon_s: Annotated[float, Field(gt=0, le=3600)] = 20.0

@@ -221,3 +221,19 @@ def test_any_values_are_accepted_or_explained(values: list[tuple[str, Any]], tex
 @given(st.integers(0, len(REFERENCE) - 1), st.text(alphabet=" :{}[]#&*!|>'\"%@`-\n\t0a", min_size=1, max_size=3))
 def test_a_slip_of_the_finger_is_accepted_or_explained(place: int, slip: str) -> None:
     accepts_or_explains((REFERENCE[:place] + slip + REFERENCE[place + 1 :]).encode())
+
+
+@pytest.mark.parametrize(
+    ("sensing", "policy", "standoff_m"),
+    [
+        ("{}", "{}", 0.0),
+        ("{field_of_view: camera}", "{}", 0.0),
+        ("{field_of_view: sector, range_m: 6}", "{}", 2.0),
+        ("{field_of_view: sector, opening_deg: 360}", "{}", 0.0),
+        ("{field_of_view: sector}", "{standoff_m: 0}", 0.0),
+        ("{}", "{standoff_m: 1.5}", 1.5),
+    ],
+)
+def test_who_looks_ahead_flies_behind_a_target(sensing: str, policy: str, standoff_m: float) -> None:
+    overrides = [Override(f"agents.sensing={sensing}"), Override(f"policy={policy}")]
+    assert load_mission("quickstart", overrides=overrides).standoff_m == standoff_m
