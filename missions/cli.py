@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import re
 import sys
 from collections.abc import Callable, Sequence
 from importlib.util import find_spec
@@ -35,7 +36,7 @@ Verb = Callable[[argparse.Namespace], int]
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command line (without the program's name; default: the process's own) and return its exit code."""
     try:
-        options = _parser().parse_args(arguments)
+        options = _parser().parse_args(_joined(sys.argv[1:] if arguments is None else arguments))
     except SystemExit as stop:  # argparse has printed help or what is wrong
         return stop.code if isinstance(stop.code, int) else BAD_INPUT
     verb: Verb = options.verb
@@ -46,6 +47,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return BAD_INPUT
     except KeyboardInterrupt:
         return STOPPED
+
+
+def _joined(arguments: Sequence[str]) -> list[str]:
+    """`--home -35.4,149.2,584,0` as `--home=-35.4,...`: argparse takes what begins with a minus for another option."""
+    joined: list[str] = []
+    for word in arguments:
+        if re.match(r"-[\d.]", word) and joined and re.fullmatch(r"--[a-z-]+", joined[-1]):
+            joined[-1] += f"={word}"
+        else:
+            joined.append(word)
+    return joined
 
 
 def launch(options: argparse.Namespace) -> int:

@@ -86,6 +86,7 @@ def test_a_taken_port_is_bad_input(capsys: pytest.CaptureFixture[str]) -> None:
         (["--sysid", "0"], "allowed: a whole number from 1 to 250"),
         (["--home", "1,2,3"], "argument --home: got"),
         (["--home", "91,0,0,0"], "LAT,LON,ALT,HEADING"),
+        (["--home", "-91,0,0,0"], "LAT,LON,ALT,HEADING"),
         (["--home", "nan,0,0,0"], "LAT,LON,ALT,HEADING"),
         (["--speed", "0"], "allowed: a number from 0.01 to 100"),
         (["--speed", "max"], "allowed: a number from 0.01 to 100"),
