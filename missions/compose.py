@@ -196,6 +196,7 @@ def vehicles(mission: Mission, pilots: Iterable[Pilot], transports: Mapping[int,
     vehicle, places, homes, firsts = mission.vehicle, deployment(mission), pads(mission), headings(mission)
     config = VehicleConfig(
         kind="ideal" if vehicle.kind == "ideal" else "simulated",
+        flavor=vehicle.flavor,
         boot_s=vehicle.boot_s,
         limits=FlightLimits(**vehicle.limits.model_dump()),
         wind=Wind(**vehicle.wind.model_dump()),

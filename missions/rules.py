@@ -143,9 +143,11 @@ def _links_are_for_agents(mission: Mission) -> str | None:
 
 
 def _setpoints_come_often(mission: Mission) -> str | None:
-    if mission.vehicle.kind != "link" or mission.tick_s <= SLOWEST_SETPOINTS_S:
+    vehicle = mission.vehicle
+    if (vehicle.kind != "link" and vehicle.flavor != "px4") or mission.tick_s <= SLOWEST_SETPOINTS_S:
         return None
-    return f"at most {shown(SLOWEST_SETPOINTS_S)} where vehicle.kind is link: a PX4 wants setpoints at more than 2 Hz"
+    where = "vehicle.kind is link" if vehicle.kind == "link" else "vehicle.flavor is px4"
+    return f"at most {shown(SLOWEST_SETPOINTS_S)} where {where}: a PX4 wants setpoints at more than 2 Hz"
 
 
 def _system_ids_are_for_links(mission: Mission) -> str | None:
@@ -243,7 +245,7 @@ RULES = (
     Rule("policy.help_lease_s", ("tick_s", "radio.latency_s"), _help_lease_is_renewable),
     Rule("vehicle.limits.speed_m_s", ("agents.speed_m_s",), _vehicles_keep_up),
     Rule("vehicle.links", ("vehicle.kind", "agents.count"), _links_are_for_agents),
-    Rule("tick_s", ("vehicle.kind",), _setpoints_come_often),
+    Rule("tick_s", ("vehicle.kind", "vehicle.flavor"), _setpoints_come_often),
     Rule("vehicle.system_ids", ("vehicle.links",), _system_ids_are_for_links),
     Rule("vehicle.wind.speed_m_s", ("vehicle.wind.gust_m_s", "vehicle.limits.speed_m_s"), _vehicles_beat_the_wind),
     Rule("targets.file", (), _tracks_exist),

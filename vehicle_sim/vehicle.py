@@ -13,7 +13,9 @@ from vehicle_sim.wind import Wind
 Kind = Literal["simulated", "ideal"]
 KINDS: tuple[Kind, ...] = ("simulated", "ideal")
 FlavorName = Literal["ardupilot", "px4"]
-FLAVOR_NAMES: tuple[FlavorName, ...] = ("ardupilot", "px4")
+# How long the real ones take from power-on until they are ready to arm (ArduCopter: recorded; PX4: its SITL, roughly).
+READY_S: dict[FlavorName, float] = {"ardupilot": 41.16, "px4": 10.0}
+FLAVOR_NAMES: tuple[FlavorName, ...] = tuple(READY_S)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -24,7 +26,7 @@ class VehicleConfig:
         kind: "simulated" flies with inertia and wind; "ideal" speaks the same MAVLink and follows each velocity
             setpoint exactly, within its speed limits.
         flavor: whose autopilot it has: an ArduCopter's ("ardupilot") or a PX4's.
-        boot_s: from power-on to armable (a real ArduCopter needs 41.2 s: same order, same texts).
+        boot_s: from power-on to armable, in the same order and with the same texts as the real one (READY_S).
     """
 
     kind: Kind = "simulated"

@@ -68,6 +68,8 @@ class Vehicle(Part):
 
     kind: Literal["simulated", "ideal", "link"] = "simulated"
     """`simulated`: flies as an airframe does; `ideal`: follows setpoints exactly; `link`: it flies elsewhere."""
+    flavor: Literal["ardupilot", "px4"] = "ardupilot"
+    """Whose autopilot a simulated vehicle has; one behind a link tells."""
     links: Annotated[tuple[LinkUrl | None, ...], Field(strict=False), Allowed(LINKS)] = ()
     """Where the vehicles are reached, by agent; null: that agent's is simulated. Only for kind `link`."""
     system_ids: Annotated[tuple[SystemId | None, ...], Field(strict=False), Allowed(SYSTEM_IDS)] = ()

@@ -11,18 +11,19 @@ from comms.frames import GeoPoint
 from comms.signing import KeyFileError, read_key
 from comms.transport import FORMS, transport_of
 from missions.problems import any_of
+from vehicle_sim.vehicle import FLAVOR_NAMES, READY_S, FlavorName
 
 SITL_PORT = 5760
 SITL_HOME = "-35.363261,149.165230,584,353"
 HIGHEST_SYSTEM_ID = 250
-RECORDED_BOOT_S = 41.16
 LONGEST_BOOT_S = 600.0
 FASTEST = 100.0
-FLAVOURS = ("ardupilot",)
+_READY = ", ".join(f"{name} {ready_s:g}" for name, ready_s in READY_S.items())
 
 EXAMPLES = """examples:
   swarm sim                                      as ArduCopter SITL: tcp:127.0.0.1:5760, armable after 41 s
   swarm sim --boot 2 --home 47.397742,8.545594,488,0 --sysid 7
+  swarm sim --flavour px4 --link udpout:127.0.0.1:14540    as PX4 SITL speaks to a companion
   swarm sim --link udpout:127.0.0.1:14550        announces itself, as QGroundControl expects
   swarm sim --link pty:/tmp/vehicle --param SYSID_MYGCS=252
 then, elsewhere: mavproxy.py --master tcp:127.0.0.1:5760
@@ -42,7 +43,7 @@ class SimOptions:
 
     links: tuple[str, ...]
     key: bytes | None = None
-    flavour: str
+    flavour: FlavorName
     system_id: int
     home: GeoPoint
     heading_deg: float
@@ -58,7 +59,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add("--port", type=_port, metavar="P", help=f"listen on tcpin:127.0.0.1:P ({SITL_PORT} unless a --link is given)")
     add("--link", type=link, action="append", default=[], metavar="URL", help=f"{FORMS}; may be repeated")
     add("--signing-key", type=signing_key, metavar="FILE", help="sign, with the key or passphrase in FILE (mode 0600)")
-    add("--flavour", type=_flavour, default=FLAVOURS[0], metavar="NAME", help=f"{any_of(FLAVOURS)}")
+    add("--flavour", type=_flavour, default=FLAVOR_NAMES[0], metavar="NAME", help=f"{any_of(FLAVOR_NAMES)}")
     add(
         "--sysid",
         type=_system_id,
@@ -77,9 +78,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add(
         "--boot",
         type=_boot,
-        default=RECORDED_BOOT_S,
         metavar="S",
-        help=f"armable after S seconds ({RECORDED_BOOT_S}, as recorded)",
+        help=f"armable after S seconds (as the real one: {_READY})",
     )
     add("--seed", type=_seed, default=0, metavar="N", help="of gusts and sensor noise (default: 0)")
     add(
@@ -104,7 +104,7 @@ def sim_options(given: argparse.Namespace) -> SimOptions:
         home=home,
         heading_deg=heading_deg,
         speed=given.speed,
-        boot_s=given.boot,
+        boot_s=READY_S[given.flavour] if given.boot is None else given.boot,
         seed=given.seed,
         parameters=tuple(given.param),
     )
@@ -126,10 +126,11 @@ def signing_key(text: str) -> bytes:
         raise argparse.ArgumentTypeError(str(error)) from None
 
 
-def _flavour(text: str) -> str:
-    if text not in FLAVOURS:
-        raise argparse.ArgumentTypeError(f'got "{text}"; allowed: {any_of(FLAVOURS)}')
-    return text
+def _flavour(text: str) -> FlavorName:
+    for name in FLAVOR_NAMES:
+        if text == name:
+            return name
+    raise argparse.ArgumentTypeError(f'got "{text}"; allowed: {any_of(FLAVOR_NAMES)}')
 
 
 def _home(text: str) -> tuple[GeoPoint, float]:

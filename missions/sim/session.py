@@ -14,7 +14,7 @@ from missions.ground_link import GroundLink, open_ground_link
 from missions.problems import InputError, did_you_mean
 from missions.sim.options import SimOptions
 from vehicle_sim.autopilot import SimulatedVehicle
-from vehicle_sim.autopilot.parameters import ALIASES, INDEX, Alias
+from vehicle_sim.autopilot.parameters import Alias
 from vehicle_sim.vehicle import VehicleConfig
 
 STOPPED = 130
@@ -51,27 +51,23 @@ def power_on(options: SimOptions) -> SimulatedVehicle:
     Raises:
         InputError: a parameter that it does not have, or that cannot be set.
     """
-    vehicle = FLAVOURS[options.flavour](options)
-    for name, value in options.parameters:
-        ours = ALIASES.get(name, Alias(name))
-        if ours.name not in INDEX:
-            raise InputError(f"--param: got {name}, which it does not have{did_you_mean(name, (*INDEX, *ALIASES))}")
-        if not vehicle.autopilot.parameters.store(ours.name, ours.scale * value + ours.offset):
-            raise InputError(f"--param: got {name}={value:g}; allowed: another parameter, {name} is read-only")
-    return vehicle
-
-
-def _ardupilot(options: SimOptions) -> SimulatedVehicle:
-    return SimulatedVehicle(
-        config=VehicleConfig(boot_s=options.boot_s),
+    vehicle = SimulatedVehicle(
+        config=VehicleConfig(flavor=options.flavour, boot_s=options.boot_s),
         system_id=options.system_id,
         home=options.home,
         heading_rad=radians(options.heading_deg),
         seed=options.seed,
     )
-
-
-FLAVOURS: dict[str, Callable[[SimOptions], SimulatedVehicle]] = {"ardupilot": _ardupilot}
+    parameters = vehicle.autopilot.parameters
+    catalog = parameters.catalog
+    for name, value in options.parameters:
+        ours = catalog.aliases.get(name, Alias(name))
+        if ours.name not in catalog.index:
+            hint = did_you_mean(name, (*catalog.index, *catalog.aliases))
+            raise InputError(f"--param: got {name}, which it does not have{hint}")
+        if not parameters.store(ours.name, ours.scale * value + ours.offset):
+            raise InputError(f"--param: got {name}={value:g}; allowed: another parameter, {name} is read-only")
+    return vehicle
 
 
 class SlippingPace:

@@ -134,6 +134,9 @@ def test_another_seed_is_another_flight() -> None:
         ("policy.standoff_m=1",),
         ("agents.count=1",),
         ("tick_s=0.2",),
+        ("vehicle.flavor=px4",),
+        ("vehicle.flavor=px4", "tick_s=0.4", "policy={tag_lease_s: 1, help_lease_s: 2}"),
+        ("vehicle={flavor: px4, kind: ideal}",),
     ],
 )
 def test_every_choice_flies(changes: tuple[str, ...]) -> None:

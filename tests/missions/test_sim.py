@@ -19,8 +19,7 @@ from comms.frames import GeoPoint
 from comms.mavlink import Endpoint
 from comms.transport import Transport, transport_of
 from missions.cli import BAD_INPUT, STOPPED, main
-from missions.sim.options import FLAVOURS, add_options, sim_options
-from missions.sim.session import FLAVOURS as MAKERS
+from missions.sim.options import add_options, sim_options
 from missions.sim.session import TOO_LATE_S, SlippingPace, power_on
 from tests.comms.test_transport import until
 
@@ -81,7 +80,7 @@ def test_a_taken_port_is_bad_input(capsys: pytest.CaptureFixture[str]) -> None:
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
-        (["--flavour", "px5"], 'argument --flavour: got "px5"; allowed: ardupilot'),
+        (["--flavour", "px5"], 'argument --flavour: got "px5"; allowed: ardupilot or px4'),
         (["--sysid", "251"], 'argument --sysid: got "251"; allowed: a whole number from 1 to 250'),
         (["--sysid", "0"], "allowed: a whole number from 1 to 250"),
         (["--home", "1,2,3"], "argument --home: got"),
@@ -94,6 +93,8 @@ def test_a_taken_port_is_bad_input(capsys: pytest.CaptureFixture[str]) -> None:
         (["--param", "RTL_ALT"], "allowed: NAME=NUMBER"),
         (["--param", "RTL_ALT=inf"], "allowed: NAME=NUMBER"),
         (["--param", "RTL_ALTI=3"], "did you mean RTL_ALT"),
+        (["--flavour", "px4", "--param", "RTL_RETURN_AL=3"], "did you mean RTL_RETURN_ALT"),
+        (["--flavour", "px4", "--param", "RTL_ALT=3"], "got RTL_ALT, which it does not have"),
         (["--param", "SYSID_THISMAV=3"], "SYSID_THISMAV is read-only"),
         (["--port", "70000"], "allowed: a whole number from 0 to 65535"),
         (["--link", "udp:1"], "allowed: tcp:HOST:PORT"),
@@ -107,8 +108,12 @@ def test_bad_input_says_what_is_allowed(arguments: list[str], told: str, capsys:
     assert told in printed.err
 
 
-def test_every_flavour_offered_can_be_made() -> None:
-    assert tuple(MAKERS) == FLAVOURS
+@pytest.mark.parametrize(("flavour", "mode", "boot_s"), [("ardupilot", "STABILIZE", 41.16), ("px4", "HOLD", 10.0)])
+def test_each_flavour_boots_as_the_real_one_does(flavour: str, mode: str, boot_s: float) -> None:
+    parser = argparse.ArgumentParser()
+    add_options(parser)
+    options = sim_options(parser.parse_args(["--flavour", flavour]))
+    assert (power_on(options).mode_name, options.boot_s) == (mode, boot_s)
 
 
 def test_parameters_go_by_old_and_new_names() -> None:

@@ -8,7 +8,9 @@ from __future__ import annotations
 from bisect import bisect_right
 from typing import NamedTuple
 
-READY_S = 41.16
+from vehicle_sim.vehicle import READY_S as READY
+
+READY_S = READY["ardupilot"]
 
 # (real seconds after power-on, text); all are of severity INFO.
 TEXTS: tuple[tuple[float, str], ...] = (

@@ -15,23 +15,22 @@ class Flavor(NamedTuple):
 
     Attributes:
         autopilot: powers one on, given what `Autopilot` is given less its parameters, script and rules.
-        ready_s: how long the real one takes from power-on until it is armable.
         builders: the messages it can report, by id. unasked_s: the periods of those that flow unasked.
         groups: what REQUEST_DATA_STREAM switches; none: it does not know that message.
         commands: the handlers of commands, each with a MAV_RESULT. unsupported: the result of any other.
-        set_mode: SET_MODE (base mode, custom mode), with a MAV_RESULT.
+        set_mode: SET_MODE (base mode, custom mode), with a MAV_RESULT. set_mode_ack: as which command it is answered.
         addressed: whether a message with a target is for the vehicle of a system id.
         hearing: messages it takes in without an answer. answers: those it answers.
     """
 
     name: str
     autopilot: Callable[..., Autopilot]
-    ready_s: float
     builders: Mapping[int, Builder]
     unasked_s: Mapping[int, float]
     groups: Mapping[int, Group]
     commands: Mapping[int, Callable[[Any], int]]
     set_mode: Callable[[Any, int, int], int]
+    set_mode_ack: int
     addressed: Callable[[Any, int], bool]
     hearing: Mapping[int, Callable[[Any, Any], None]]
     answers: Mapping[int, Callable[[Any, Any], Iterable[Any]]]

@@ -7,12 +7,12 @@ from typing import Any
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
 from vehicle_sim.autopilot import parameter_protocol
-from vehicle_sim.autopilot.boot import READY_S
 from vehicle_sim.autopilot.commands import COMMANDS, set_mode
 from vehicle_sim.autopilot.copter import Copter
 from vehicle_sim.autopilot.courtesies import ANSWERS
 from vehicle_sim.autopilot.flavor import Flavor
 from vehicle_sim.autopilot.hearing import HEARING
+from vehicle_sim.autopilot.px4.flavor import PX4
 from vehicle_sim.autopilot.streams import GROUPS, UNASKED_S
 from vehicle_sim.autopilot.telemetry import BUILDERS
 from vehicle_sim.vehicle import FlavorName
@@ -26,12 +26,12 @@ def addressed(message: Any, system_id: int) -> bool:
 ARDUPILOT = Flavor(
     name="ardupilot",
     autopilot=Copter,
-    ready_s=READY_S,
     builders=BUILDERS,
     unasked_s=UNASKED_S,
     groups=GROUPS,
     commands=COMMANDS,
     set_mode=set_mode,
+    set_mode_ack=dialect.MAVLINK_MSG_ID_SET_MODE,
     addressed=addressed,
     hearing=HEARING,
     answers=ANSWERS
@@ -42,4 +42,4 @@ ARDUPILOT = Flavor(
     },
 )
 
-FLAVORS: dict[FlavorName, Flavor] = {"ardupilot": ARDUPILOT}
+FLAVORS: dict[FlavorName, Flavor] = {"ardupilot": ARDUPILOT, "px4": PX4}

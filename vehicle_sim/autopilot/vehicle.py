@@ -20,7 +20,6 @@ from vehicle_sim.autopilot.streams import ALL_GROUPS, Streams
 from vehicle_sim.vehicle import VehicleConfig, VehicleTruth
 
 HEARTBEAT_ID, MISSION_CURRENT_ID, HOME_ID, ORIGIN_ID = 0, 42, 242, 49
-SET_MODE_ID = 11
 TEXT_BYTES = 50
 UNSUPPORTED = 3  # MAV_RESULT
 
@@ -188,7 +187,7 @@ class SimulatedVehicle:
 
     def _on_set_mode(self, message: Any) -> None:
         result = self._flavor.set_mode(self.autopilot, message.base_mode, message.custom_mode)
-        self._acknowledge(message, SET_MODE_ID, int(result))
+        self._acknowledge(message, self._flavor.set_mode_ack, int(result))
 
     def _on_plan(self, message: Any) -> None:
         self.desk.handle(message, self.endpoint.send, self.autopilot.now_s)

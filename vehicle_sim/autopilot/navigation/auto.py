@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from math import atan2, copysign, radians
 
 from comms.frames import Vec3
 from vehicle_sim.autopilot.mission import Mission
-from vehicle_sim.autopilot.navigation.legs import LEGS, Leg, WaypointLeg
+from vehicle_sim.autopilot.navigation.legs import LEGS, BeginLeg, Leg, WaypointLeg
 from vehicle_sim.autopilot.navigation.navigator import Navigator
 from vehicle_sim.autopilot.plans import commands
 from vehicle_sim.autopilot.plans.item import Item
@@ -22,13 +22,19 @@ Done = Callable[[float], bool]
 class Auto(Navigator):
     """One stay in AUTO.
 
+    Args:
+        legs: what begins to fly each way.
+
     Attributes:
         lands: what is flown ends on the ground.
     """
 
-    def __init__(self, steering: Steering, now_s: float, mission: Mission) -> None:
+    def __init__(
+        self, steering: Steering, now_s: float, mission: Mission, *, legs: Mapping[int, BeginLeg] = LEGS
+    ) -> None:
         super().__init__(steering, now_s)
         self._mission = mission
+        self._legs = legs
         self._leg: Leg | None = None
         self._side: Done | None = None
         self._side_index = 0
@@ -37,6 +43,11 @@ class Auto(Navigator):
         self._paused_ned_m: Vec3 | None = None
         self._stay_ned_m: Vec3 | None = None  # at the end of the mission
         mission.begin(restarts=steering.parameters["MIS_RESTART"] == 1.0)
+
+    @property
+    def leg(self) -> Leg | None:
+        """What is flown now."""
+        return self._leg
 
     @property
     def landing(self) -> bool:  # type: ignore[override]
@@ -91,7 +102,7 @@ class Auto(Navigator):
             item = mission.items[mission.current]
             self._yaw_rad = None if item.command == commands.WAYPOINT else self._yaw_rad
             self._stay_ned_m = None
-            self._leg = LEGS[item.command](self.steering, now_s, item, mission)
+            self._leg = self._legs[item.command](self.steering, now_s, item, mission)
 
     def _do_beside(self, now_s: float) -> None:
         """Begin and finish, in order, what is to be done beside this leg."""

@@ -248,7 +248,9 @@ class LandLeg(Leg):
         return here._replace(down_m_s=self.steering.sink_m_s()) if self.landing else here
 
 
-LEGS: dict[int, Callable[[Steering, float, Item, Mission], Leg]] = {
+BeginLeg = Callable[[Steering, float, Item, Mission], Leg]
+
+LEGS: dict[int, BeginLeg] = {
     commands.WAYPOINT: WaypointLeg,
     commands.SPLINE: WaypointLeg,
     commands.LOITER_UNLIMITED: LoiterLeg,
