@@ -7,6 +7,7 @@ from enum import StrEnum
 import msgspec
 
 from comms.frames import Vec3
+from comms.knowledge import Knowledge
 
 
 class Activity(StrEnum):
@@ -64,7 +65,7 @@ class AgentStatus(msgspec.Struct, frozen=True, kw_only=True):
         tags: targets it follows (owns). calls: help calls out. helping: the target it flies to for a mate, or None.
         mates: the agents whose frames arrived this tick.
         flight_mode: the autopilot's mode, in its own words ("GUIDED").
-        events: new since the last tick.
+        events: new since the last tick. knowledge: when it was asked for.
     """
 
     uid: int
@@ -79,3 +80,4 @@ class AgentStatus(msgspec.Struct, frozen=True, kw_only=True):
     mates: tuple[int, ...] = ()
     flight_mode: str = ""
     events: tuple[Event, ...] = ()
+    knowledge: Knowledge | None = None

@@ -34,6 +34,8 @@ if TYPE_CHECKING:
     from missions.recording import Recorder
 
 DONE, FAILED, STOPPED = 0, 1, 130
+# How often agents tell a recorder what they know.
+EXPLAIN_EVERY_S = 1.0
 
 
 class StopRequest:
@@ -106,6 +108,7 @@ def _fly(flight: Flight, metrics: Metrics, request: StopRequest, console: Consol
             except OutputError as error:
                 raise InputError(str(error)) from error
             observers.append(recorder)
+            flight.side.explain_every_s = EXPLAIN_EVERY_S
         bar = ProgressBar(console, duration_s=mission.duration_s, tick_s=mission.tick_s)
         observers.append(stack.enter_context(bar))
         try:
@@ -187,7 +190,7 @@ def recorder_of(mission: Mission, n_targets: int, options: LaunchOptions) -> Rec
         arena=mission.arena.area,
         n_agents=mission.agents.count,
         n_targets=n_targets,
-        sensing_range_m=mission.agents.sensing.range_m,
+        sensing_ranges_m=mission.agents.sensing_ranges_m,
         home=mission.home.place,
         ceiling_m=max(mission.agents.altitude.of_agent(uid) for uid in range(mission.agents.count)),
         coverage_floor=coverage_floor(mission),

@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 from msgspec import structs
 
+from comms.knowledge import Knowledge
 from comms.messages import Frame, Sighting
 from comms.status import Activity, AgentStatus, HelpCallStatus
 from swarm_agent.autopilot import Fly, Intent, Phase, Pilot, PilotConfig, PilotState, Prepare, Return
@@ -21,9 +22,13 @@ from swarm_agent.bcmommt.modes import Mode
 from swarm_agent.bcmommt.params import Explore, Params
 from swarm_agent.bcmommt.speech import answers_said, calls_said, hear, tags_said
 from swarm_agent.bcmommt.step import Mind, new_mind
+from swarm_agent.insight import insight
 from swarm_agent.news import news
 from swarm_agent.policies.choice import decide
+from swarm_agent.reasons import Reasons
 from swarm_agent.safety import Guard, SafetyConfig
+
+_NOWHERE = (0.0, 0.0, 0.0)
 
 
 class Order(NamedTuple):
@@ -32,10 +37,12 @@ class Order(NamedTuple):
     Attributes:
         mission_tick: ticks since the mission began, or None before it begins and after it ends.
         come_home: the mission is over: return and land.
+        explain: somebody wants to know what every agent knows, and why it does what it does.
     """
 
     mission_tick: int | None = None
     come_home: bool = False
+    explain: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -72,6 +79,7 @@ class Agent:
         self._config = config
         self._on_duty = False
         self._table, self._mind = self._innocence()
+        self._wanted_m_s = 0.0, 0.0
         self._seq = 0
         self._told: AgentStatus | None = None
         self._guard = Guard(config.safety)
@@ -109,7 +117,7 @@ class Agent:
                 self._table, self._mind = self._innocence()
         self._on_duty = frame is not None
         wire = pilot.act(now_s, intent)
-        return Output(frame, wire, self._tell(self._status(pilot.state, inbox)))
+        return Output(frame, wire, self._tell(now_s, self._status(pilot.state, inbox), explain=order.explain))
 
     def _innocence(self) -> tuple[Table, Mind]:
         """What an agent knows and thinks before its mission."""
@@ -117,11 +125,22 @@ class Agent:
         cells = cell_columns(p) * cell_rows(p) if p.explore == Explore.STALE_FIRST else 0
         return new_table(config.n_targets, config.n_agents, cells), new_mind(*config.heading)
 
-    def _tell(self, status: AgentStatus) -> AgentStatus:
+    def _tell(self, now_s: float, status: AgentStatus, *, explain: bool) -> AgentStatus:
         """The status with everything to be said in words: by the autopilot, the pilot and the algorithm."""
-        events = self.pilot.take_events() + self._guard.take_events() + news(self._told, status)
+        x, y, _ = status.position_m or _NOWHERE
+        reasons = Reasons(self._table, self._config.params, self._mind, self._config.uid, x, y, now_s)
+        events = self.pilot.take_events() + self._guard.take_events() + news(self._told, status, reasons)
         self._told = status
+        if explain:
+            knowledge = self._explain(reasons)
+            return structs.replace(status, events=events, knowledge=knowledge)
         return structs.replace(status, events=events) if events else status
+
+    def _explain(self, reasons: Reasons) -> Knowledge:
+        mavlink = self.pilot.take_heard()
+        if not self._on_duty:
+            return Knowledge(mavlink=mavlink)
+        return insight(reasons, wanted_m_s=self._wanted_m_s, mavlink=mavlink)
 
     def _perceive(
         self, now_s: float, me: tuple[float, float, float], sightings: Sequence[Sighting], inbox: Sequence[Frame]
@@ -137,7 +156,8 @@ class Agent:
         self._mind, east, north = decide(
             self._table, config.params, self._mind, config.uid, me[0], me[1], now_s, config.seed, mission_tick
         )
-        return Fly(self._guard.safe(now_s, me, (east, north)))
+        self._wanted_m_s = east, north
+        return Fly(self._guard.safe(now_s, me, self._wanted_m_s))
 
     def _say(
         self, now_s: float, position_m: tuple[float, float, float], velocity_m_s: tuple[float, float, float]

@@ -8,7 +8,9 @@ import rerun as rr
 import rerun.blueprint as rrb
 
 from missions.recording import palette
+from missions.recording.event_view import event_log
 from missions.recording.eye import fitting_eye
+from missions.recording.minds_view import knowledge
 from missions.recording.places import GRAPH_SIZE
 from missions.recording.scene import Scene
 from missions.recording.tape import TICK_LINE, TIME_LINE
@@ -17,10 +19,10 @@ _TRAIL_S = 20.0
 
 
 def blueprint(scene: Scene, *, live: bool) -> rrb.Blueprint:
-    """Tabs Mission, Telemetry, Map and Raw. A live viewer follows the newest tick; a review starts paused."""
+    """Tabs, from the mission to the raw numbers. A live viewer follows the newest tick; a review starts paused."""
     play_state = rrb.components.PlayState.Following if live else rrb.components.PlayState.Paused
     return rrb.Blueprint(
-        rrb.Tabs(_mission(scene), _telemetry(), _map(), _raw(), active_tab=0),
+        rrb.Tabs(_mission(scene), knowledge(scene), _telemetry(), _map(), _raw(), active_tab=0),
         rrb.BlueprintPanel(state="collapsed"),
         rrb.SelectionPanel(state="collapsed"),
         rrb.TimePanel(state="collapsed", timeline=TIME_LINE, play_state=play_state),
@@ -36,7 +38,7 @@ def _mission(scene: Scene) -> rrb.Container:
             rrb.Horizontal(_coverage(), _radio(scene), column_shares=[5, 4]),
             row_shares=[5, 2],
         ),
-        rrb.Vertical(_lanes(), _events(), row_shares=[5, 3]),
+        rrb.Vertical(_lanes(), event_log("/log", name="Events"), row_shares=[5, 3]),
         column_shares=[19, 10],
         name="Mission",
     )
@@ -87,17 +89,6 @@ def _radio(scene: Scene) -> rrb.View:
 
 def _lanes() -> rrb.View:
     return rrb.StateTimelineView(origin="/agents", contents="/agents/**", name="What each agent does")
-
-
-def _events() -> rrb.View:
-    kind = rrb.encodings.TextLogColumnKind
-    columns = [rrb.encodings.TextLogColumn(shown) for shown in (kind.LogLevel, kind.Body)]
-    return rrb.TextLogView(
-        origin="/log",
-        contents="/log/**",
-        name="Events",
-        columns=rrb.TextLogColumns(timeline_columns=[TIME_LINE], text_log_columns=columns),
-    )
 
 
 def _telemetry() -> rrb.Container:

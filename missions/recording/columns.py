@@ -18,10 +18,10 @@ from missions.recording.block import Block, Colors, Floats, Ints, Mask
 
 @dataclass(frozen=True, slots=True)
 class Rows:
-    """Columns of one entity, one row for each tick of `block`."""
+    """Columns of one entity, one row for each tick of `block`; without a block a single row that holds at all times."""
 
     path: str
-    block: Block
+    block: Block | None
     columns: Iterable[ComponentColumn]
 
 
@@ -41,12 +41,12 @@ def pieces(lines: npt.ArrayLike, colors: Colors | None, counts: Ints) -> rr.Comp
     return columns.partition(counts)
 
 
-def rings(centers: Floats, radius_m: float, colors: Colors, counts: Ints) -> rr.ComponentColumnList:
-    """Flat rings (R, 3) as columns of Cylinders3D.
+def rings(centers: Floats, radii_m: Floats | float, colors: Colors, counts: Ints) -> rr.ComponentColumnList:
+    """Flat rings (R, 3) as columns of Cylinders3D, one radius for all or one each.
 
     The radius is repeated for each ring: were it static, a row without centers would still show one, at the origin.
     """
-    radii = np.full(len(centers), radius_m, dtype=np.float32)
+    radii = np.broadcast_to(np.float32(radii_m), len(centers))
     return rr.Cylinders3D.columns(centers=centers, radii=radii, colors=colors).partition(counts)
 
 

@@ -18,6 +18,7 @@ _HALF_HEIGHT = tan(radians(55.0) / 2)
 _ASPECT = 1.8
 _PITCH = radians(42.0)
 _MARGIN = 1.05
+_PLAN_MARGIN = 1.1
 
 _AHEAD = np.array((0.0, cos(_PITCH), -sin(_PITCH)))
 _UP = np.array((0.0, sin(_PITCH), cos(_PITCH)))
@@ -36,6 +37,12 @@ def fitting_eye(scene: Scene) -> tuple[Point, Point]:
     distance = distances.min()
     target = slides[distances <= 1.001 * distance].mean() * _UP
     return _point(target - distance * _AHEAD), _point(target)
+
+
+def eye_above(scene: Scene) -> tuple[Point, Point]:
+    """Position and look target of a camera high above the middle: a plan of the arena, north up, for a square view."""
+    height_m = _PLAN_MARGIN * max(scene.arena.half_y_m, scene.arena.half_x_m) / _HALF_HEIGHT
+    return (0.0, 0.0, height_m), (0.0, 0.0, 0.0)
 
 
 def _distance_m(corners: npt.NDArray[np.float64]) -> float:

@@ -35,6 +35,7 @@ class SeenGround:
         old = ramp(palette.GROUND, palette.GROUND_REMEMBERED, _REMEMBERED + 1)
         new = ramp(palette.GROUND_REMEMBERED, palette.GROUND_FRESH, _FRESH - _REMEMBERED + 1)
         self._ramp = np.concatenate((old, new[1:]))
+        self._squared_m2 = np.square(np.array(scene.sensing_ranges_m, dtype=np.float32))
         self._bare = True
 
     def rows(self, block: Block) -> Iterator[Rows]:
@@ -52,7 +53,7 @@ class SeenGround:
         """The color of every vertex, after agents at (N, 3) have looked around."""
         step = floor(now_s / _FADE_STEP_S)
         away = self._vertices[:, None, :] - positions_m[None, looking, :2]
-        within = (np.square(away).sum(axis=2) <= self._scene.sensing_range_m**2).any(axis=1)
+        within = (np.square(away).sum(axis=2) <= self._squared_m2[looking]).any(axis=1)
         self._seen_at_step[within] = step
         shade = np.maximum(_FRESH - (step - self._seen_at_step), _REMEMBERED)
         shade[self._seen_at_step == _NEVER] = 0

@@ -23,6 +23,10 @@ SEEN = 0xD8BE58B0  # ring of a target that is seen, and nobody's
 UNSEEN = 0xFF5C5CFF  # ring and body of a target out of sight
 TARGET = 0xFFF3C4FF
 
+MATE = 0x9FB3C8FF  # another agent, as one agent believes it
+REMEMBERED = 0x8A94A6FF  # a target that an agent only remembers
+TRUE = 0xD5DCE8FF  # what is so, behind what is believed
+
 BACKGROUND = 0x06080EFF
 GROUND = 0x090D17FF  # never seen
 GROUND_REMEMBERED = 0x0F233FFF  # seen long ago

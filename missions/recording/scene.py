@@ -21,7 +21,7 @@ class Scene:
         mission_name: the recording's title. mission_yaml: the mission with every default and --set resolved.
         seed, policy, versions: stored as properties, beside the mission. versions: name -> version (or git hash).
         tick_s: mission time between two observations.
-        sensing_range_m: radius of every agent's sensing disc on the ground.
+        sensing_ranges_m: how far each agent sees, on the ground, by uid.
         home: where ENU (0, 0, 0) is on the globe.
         ceiling_m: how high agents fly, so that the first view shows all of them.
         coverage_floor: coverage of agents placed at random and standing still, drawn as a dim line; None when unknown.
@@ -36,7 +36,7 @@ class Scene:
     arena: Arena
     n_agents: int
     n_targets: int
-    sensing_range_m: float
+    sensing_ranges_m: tuple[float, ...]
     home: GeoPoint
     ceiling_m: float = 0.0
     coverage_floor: float | None = None

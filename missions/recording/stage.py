@@ -65,6 +65,7 @@ def set_stage(tape: Tape, scene: Scene) -> None:
     _set_agents(tape, scene)
     _set_targets(tape, scene)
     _set_lines(tape, scene)
+    _set_minds(tape, scene)
     _set_charts(tape, scene)
     _set_map(tape, scene)
     _set_properties(tape, scene)
@@ -134,6 +135,22 @@ def _set_lines(tape: Tape, scene: Scene) -> None:
     tape.log_static("/world/tracks", rr.LineStrips3D.from_fields(radii=_on_screen(0.8)))
     tape.log_static("/world/links", rr.LineStrips3D.from_fields(radii=_on_screen(0.5), colors=[palette.LINK]))
     tape.log_static("/world/help", rr.Arrows3D.from_fields(radii=_on_screen(2.0), show_labels=True))
+
+
+def _set_minds(tape: Tape, scene: Scene) -> None:
+    for name in scene.agent_names:
+        tape.log_static(
+            f"/knowledge/{name}",
+            rr.Points3D.from_fields(radii=_on_screen(4.0), show_labels=True),
+            rr.LineStrips3D.from_fields(radii=_on_screen(0.8)),
+            rr.Arrows3D.from_fields(radii=_on_screen(1.4)),
+            rr.Cylinders3D.from_fields(
+                lengths=[0.002 * Sizes.of(scene).unit_m],
+                line_radii=_on_screen(1.1),
+                fill_mode=rr.components.FillMode.TransparentFillMajorWireframe,
+            ),
+            rr.TextDocument.from_fields(media_type=rr.MediaType.MARKDOWN),
+        )
 
 
 def _set_charts(tape: Tape, scene: Scene) -> None:

@@ -27,7 +27,7 @@ class Swarm:
 
     def __init__(self, scene: Scene) -> None:
         self._n = scene.n_agents
-        self._range_m = scene.sensing_range_m
+        self._ranges_m = np.array(scene.sensing_ranges_m, dtype=np.float32)
         self._arrow_m = np.float32(Sizes.of(scene).arrow_m)
         self._trail_end_m: Floats | None = None
 
@@ -52,7 +52,8 @@ class Swarm:
         below = here * _FLAT
         stems = np.stack((here, below), axis=1)
         yield Rows("/world/agents/stem", block, pieces(stems, faded(colors, _STEM_ALPHA), counts))
-        yield Rows("/world/agents/sensing", block, rings(below, self._range_m, faded(colors, _DISC_ALPHA), counts))
+        ranges = np.broadcast_to(self._ranges_m, flying.shape)[flying]
+        yield Rows("/world/agents/sensing", block, rings(below, ranges, faded(colors, _DISC_ALPHA), counts))
 
     def _trail(self, block: Block) -> Iterator[Rows]:
         if not len(block):

@@ -11,6 +11,7 @@ from pathlib import Path
 import rerun as rr
 import rerun.blueprint as rrb
 
+from missions.recording.block import Block
 from missions.recording.columns import Rows
 from missions.recording.optimize import rerun_command
 from missions.recording.scene import Scene
@@ -61,13 +62,11 @@ class Tape:
 
     def send(self, rows: Rows) -> None:
         """Record one entity's rows; nothing when there are none."""
-        if not len(rows.block):
+        if rows.block is not None and not len(rows.block):
             return
-        times = rr.TimeColumn(TIME_LINE, duration=rows.block.times_ns.astype("timedelta64[ns]"))
-        ticks = rr.TimeColumn(TICK_LINE, sequence=rows.block.ticks)
-        columns = list(rows.columns)
+        indexes, columns = _indexes(rows.block), list(rows.columns)
         for stream in self._streams:
-            stream.send_columns(rows.path, indexes=[times, ticks], columns=columns)
+            stream.send_columns(rows.path, indexes=indexes, columns=columns)
 
     def flush(self) -> None:
         """Hand everything to the operating system: from here on it survives the death of this process."""
@@ -89,6 +88,13 @@ class Tape:
         stream.send_recording_name(self._scene.mission_name)
         self._streams.append(stream)
         return stream
+
+
+def _indexes(block: Block | None) -> list[rr.TimeColumn]:
+    if block is None:
+        return []
+    times = rr.TimeColumn(TIME_LINE, duration=block.times_ns.astype("timedelta64[ns]"))
+    return [times, rr.TimeColumn(TICK_LINE, sequence=block.ticks)]
 
 
 def _free_port() -> int:

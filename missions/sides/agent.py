@@ -52,7 +52,7 @@ class AgentSide:
         if cue.frames is not None and self.radio.waiting != cue.frames:
             got = f"{self.radio.waiting} frames arrived of {cue.frames}"
             raise RuntimeError(f"lockstep broken at {now_s:.1f} s, agent {self.uid}: {got}")
-        order = Order(mission_tick=cue.mission_tick, come_home=cue.come_home)
+        order = Order(mission_tick=cue.mission_tick, come_home=cue.come_home, explain=cue.explain)
         output = self.agent.tick(now_s, order, cue.sightings, self.radio.drain(now_s), self._telemetry)
         if output.frame is not None:
             self.radio.send(output.frame)

@@ -21,6 +21,7 @@ class Cue(msgspec.Struct, frozen=True, kw_only=True, array_like=True):
     Attributes:
         tick: ticks since power-on. mission_tick: since MISSION began; None outside it.
         come_home: the mission is over: return and land.
+        explain: somebody wants to know what the agent knows.
         sightings: what the agent's sensor sees now.
         frames: how many have been sent to its radio for this tick; None where nobody waits for them (real time).
     """
@@ -28,6 +29,7 @@ class Cue(msgspec.Struct, frozen=True, kw_only=True, array_like=True):
     tick: int
     mission_tick: int | None = None
     come_home: bool = False
+    explain: bool = False
     sightings: tuple[Sighting, ...] = ()
     frames: int | None = 0
 

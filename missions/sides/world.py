@@ -31,6 +31,7 @@ class WorldSide:
 
     Attributes:
         world: the targets. air: the medium. coverage: what was seen. dones: what the agents did last, by uid.
+        explain_every_s: how often agents tell what they know; None: never.
     """
 
     def __init__(self, mission: Mission, bus: Bus) -> None:
@@ -38,6 +39,7 @@ class WorldSide:
         self.world = compose.world(mission)
         self.air = compose.air(mission, bus)
         self.coverage = Coverage()
+        self.explain_every_s: float | None = None
         self.dones: Sequence[Done] = ()
         self._phases = Phases(tick_s=mission.tick_s, duration_s=mission.duration_s)
         self._tick = 0
@@ -86,6 +88,7 @@ class WorldSide:
                 tick=self._tick,
                 mission_tick=mission_tick,
                 come_home=self._phases.now is Phase.RETURN,
+                explain=self._is_explained(),
                 sightings=tuple(seen),
                 frames=frames,
             )
@@ -110,6 +113,10 @@ class WorldSide:
         """End the tick. `stop`: the swarm is to come home."""
         self._tick += 1
         self._phases.turn(self._tick, self.dones, stop=stop)
+
+    def _is_explained(self) -> bool:
+        every_s = self.explain_every_s
+        return every_s is not None and self._tick % max(1, round(every_s / self.mission.tick_s)) == 0
 
     def _aloft(self) -> list[tuple[float, float] | None]:
         return [None if done.on_ground else done.truth.position_m[:2] for done in self.dones]

@@ -48,6 +48,7 @@ class Pilot:
         self._heartbeat_due_s = float("-inf")
         self._link_lost = False
         self._restarts = 0
+        self._heard: dict[type[Message], Message] = {}
 
     def tick(self, now_s: float, wire_in: bytes, intent: Intent) -> bytes:
         """`listen`, then `act`: for whoever knows what it wants without looking at the vehicle first."""
@@ -102,6 +103,12 @@ class Pilot:
         """What the autopilot said and what went wrong, since the last call."""
         return self._cockpit.take_events()
 
+    def take_heard(self) -> tuple[bytes, ...]:
+        """Of each kind of message that the vehicle has sent since the last call, the newest frame."""
+        frames = tuple([bytes(message.get_msgbuf()) for message in self._heard.values()])
+        self._heard.clear()
+        return frames
+
     def _hear(self, wire_in: bytes, now_s: float) -> None:
         """Sort the vehicle's messages; those of other systems and of its other components are not for us."""
         cockpit = self._cockpit
@@ -117,6 +124,7 @@ class Pilot:
             if message.get_srcSystem() != cockpit.system_id:
                 continue
             kind = type(message)
+            self._heard[kind] = message
             if kind in REPLIES:
                 if self._for_us(message):
                     cockpit.replies.append(message)

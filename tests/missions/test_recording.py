@@ -168,7 +168,7 @@ class TestContent:
             axis=0,
         )
         # Paint bleeds over two vertices, 5 m each.
-        never = closest_m > scene.sensing_range_m + 15.0
+        never = closest_m > scene.sensing_ranges_m[0] + 15.0
         assert never.sum() > 50
         assert {painted[390][vertex] for vertex in np.flatnonzero(never)} == {GROUND}
 

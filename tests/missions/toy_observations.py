@@ -30,7 +30,7 @@ def toy_scene(*, arena: Arena | None = None, n_agents: int = 10, n_targets: int 
         arena=arena,
         n_agents=n_agents,
         n_targets=n_targets,
-        sensing_range_m=0.13 * 2 * max(arena.half_x_m, arena.half_y_m),
+        sensing_ranges_m=(0.13 * 2 * max(arena.half_x_m, arena.half_y_m),) * n_agents,
         home=GeoPoint(47.3769, 8.5417, 408.0),
         ceiling_m=0.16 * min(arena.half_x_m, arena.half_y_m),
         coverage_floor=0.41,
@@ -139,18 +139,18 @@ class _Toy:
         return uid == 6 and 350 <= tick < 470
 
     def _is_seen(self, target: int) -> bool:
-        return any(self.distance(uid, target) < self.scene.sensing_range_m for uid in range(self.scene.n_agents))
+        return any(self.distance(uid, target) < self.scene.sensing_ranges_m[0] for uid in range(self.scene.n_agents))
 
     def _owners(self) -> dict[int, list[int]]:
         owners: dict[int, list[int]] = {}
         for target in range(self.scene.n_targets):
             nearest = min(range(self.scene.n_agents), key=lambda uid: self.distance(uid, target))
-            if self.distance(nearest, target) < self.scene.sensing_range_m:
+            if self.distance(nearest, target) < self.scene.sensing_ranges_m[0]:
                 owners.setdefault(nearest, []).append(target)
         return owners
 
     def _links(self) -> tuple[tuple[int, int], ...]:
-        near = 2.2 * self.scene.sensing_range_m
+        near = 2.2 * self.scene.sensing_ranges_m[0]
         return tuple(
             (a, b)
             for a in range(self.scene.n_agents)
@@ -160,7 +160,7 @@ class _Toy:
 
     def _status(self, uid: int, tick: int, owners: dict[int, list[int]]) -> AgentStatus:
         tags = owners.get(uid, [])
-        far = [t for t in tags if self.distance(uid, t) > 0.62 * self.scene.sensing_range_m]
+        far = [t for t in tags if self.distance(uid, t) > 0.62 * self.scene.sensing_ranges_m[0]]
         calls = tuple(HelpCallStatus(target, 4.0) for target in far[1:] or (far if len(tags) > 1 else []))
         helping = None if tags else self._helping(uid, owners)
         activity = Activity.PREPARING
@@ -189,7 +189,7 @@ class _Toy:
 
     def _helping(self, uid: int, owners: dict[int, list[int]]) -> int | None:
         crowded = [tags[-1] for tags in owners.values() if len(tags) > 1]
-        near = [t for t in crowded if self.distance(uid, t) < 3 * self.scene.sensing_range_m]
+        near = [t for t in crowded if self.distance(uid, t) < 3 * self.scene.sensing_ranges_m[0]]
         return min(near, key=lambda t: self.distance(uid, t)) if near and uid % 2 == 0 else None
 
     def _steer(self, uid: int, tags: list[int], helping: int | None) -> None:

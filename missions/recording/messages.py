@@ -1,0 +1,76 @@
+"""What the autopilots said: of each kind of MAVLink message the newest now and then, as numbers under `/mavlink`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import isnan
+
+import rerun as rr
+
+from comms.mavlink import Endpoint, Message
+from missions.recording.block import Block
+from missions.recording.columns import Rows
+from missions.recording.scene import Scene
+
+_READER_ID = 255  # it never speaks: any id will do
+
+
+# Every vector of every vehicle is a row of its own: a large swarm's come less often.
+_STEP_S, _STEP_S_OF_AN_AGENT = 5.0, 0.5
+_KIND = slice(7, 10)  # of a MAVLink 2 frame: its message id
+
+
+class Messages:
+    """Vectors of the numbers in each message, their names beside them: `/mavlink/A4/ATTITUDE`."""
+
+    def __init__(self, scene: Scene) -> None:
+        self._scene = scene
+        self._step_s = max(_STEP_S, _STEP_S_OF_AN_AGENT * scene.n_agents)
+        self._reader = Endpoint(system_id=_READER_ID)
+        self._newest: dict[tuple[int, bytes], bytes] = {}  # frames by agent and kind
+        self._named: set[str] = set()
+
+    def rows(self, block: Block) -> Iterator[Rows]:
+        """The newest message of each kind since the last step, and names for what is told for the first time."""
+        for seen in block.observations:
+            for status in seen.statuses:
+                if status.knowledge is not None:
+                    self._newest |= {(status.uid, frame[_KIND]): frame for frame in status.knowledge.mavlink}
+            at = Block(self._scene, [seen])
+            if len(at.every(self._step_s)):
+                yield from self._told(at)
+
+    def _told(self, at: Block) -> Iterator[Rows]:
+        for (uid, _), frame in self._newest.items():
+            for message in self._reader.receive(frame):
+                path = f"/mavlink/{self._scene.agent_names[uid]}/{message.get_type()}"
+                if numbers := _numbers(message):
+                    yield from self._names(path, list(numbers))
+                    yield Rows(path, at, _vector(rr.Scalars.columns(scalars=list(numbers.values())), len(numbers)))
+        self._newest.clear()
+
+    def _names(self, path: str, names: list[str]) -> Iterator[Rows]:
+        if path not in self._named:
+            self._named.add(path)
+            yield Rows(path, None, _vector(rr.SeriesLines.columns(names=names), len(names)))
+
+
+def _vector(columns: rr.ComponentColumnList, width: int) -> rr.ComponentColumnList:
+    return columns.partition([width])
+
+
+def _numbers(message: Message) -> dict[str, float]:
+    """A message's numbers by the names of their fields, arrays flattened; texts are left out."""
+    numbers: dict[str, float] = {}
+    for name in message.fieldnames:
+        value = getattr(message, name)
+        if isinstance(value, (int, float)):
+            numbers[name] = _known(value)
+        elif isinstance(value, (list, tuple)):
+            numbers |= {f"{name}[{place}]": _known(part) for place, part in enumerate(value)}
+    return numbers
+
+
+def _known(value: float) -> float:
+    """A number; 0 for "not given": NaN is not equal to itself, and equal missions shall give equal recordings."""
+    return 0.0 if isnan(value) else float(value)

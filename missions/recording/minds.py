@@ -1,0 +1,182 @@
+"""What each agent knew, beside the truth: its beliefs in space, and a page that says what it wanted and why."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import hypot
+from typing import NamedTuple
+
+import numpy as np
+import rerun as rr
+
+from comms.knowledge import Belief, Knowledge
+from comms.status import Activity, AgentStatus
+from missions.observation import Observation, TargetTruth
+from missions.recording import palette
+from missions.recording.block import Block, stored
+from missions.recording.columns import Rows, faded, pieces, rings
+from missions.recording.scene import Scene
+
+# An arrow as long as the way of so many seconds.
+_ARROW_S = 4.0
+# News older than this is shown with its age.
+_FRESH_S = 1.0
+_SIGHT_ALPHA = 90
+_HEADER = (
+    "| target | where, m east, north | known | follows | calls | lost in | comes | in | off by |\n" + "|---" * 9 + "|"
+)
+
+
+class _Told(NamedTuple):
+    """One agent's knowledge at one tick, with what it is held against."""
+
+    observation: Observation
+    status: AgentStatus
+    knowledge: Knowledge
+
+    @property
+    def me(self) -> tuple[float, float]:
+        """Where it believes to be; where it is while it knows nothing of that."""
+        place = self.status.position_m or self.observation.truths[self.status.uid].position_m
+        return place[:2]
+
+    def truth(self, belief: Belief) -> TargetTruth:
+        """The target that is believed in."""
+        return self.observation.targets[belief.target]
+
+
+class Minds:
+    """Draws what agents knew whenever they tell it: `/knowledge/A4` is the mind of A4."""
+
+    def __init__(self, scene: Scene) -> None:
+        self._scene = scene
+
+    def rows(self, block: Block) -> Iterator[Rows]:
+        """A row for each agent that has told."""
+        for uid, name in enumerate(self._scene.agent_names):
+            told = [
+                _Told(seen, seen.statuses[uid], knowledge)
+                for seen in block.observations
+                if (knowledge := seen.statuses[uid].knowledge) is not None
+            ]
+            if told:
+                at = Block(self._scene, [one.observation for one in told])
+                yield Rows(f"/knowledge/{name}", at, self._columns(uid, told))
+
+    def _columns(self, uid: int, told: Sequence[_Told]) -> list[rr.ComponentColumn]:
+        return [
+            *_points(self._scene, told),
+            *_errors(told),
+            *_wanted(told),
+            *_sight(told, self._scene.sensing_ranges_m[uid]),
+            *rr.TextDocument.columns(text=[page(self._scene, one.status, one.observation) for one in told]),
+        ]
+
+
+def _points(scene: Scene, told: Sequence[_Told]) -> rr.ComponentColumnList:
+    """The agent itself, the targets it believes in, and the mates it has heard."""
+    places, colors, labels, counts = [], [], [], []
+    for one in told:
+        status, known = one.status, one.knowledge
+        places += [one.me, *(b.place_m for b in known.beliefs), *(m.place_m for m in known.mates)]
+        colors += [
+            palette.ACTIVITY_COLORS[status.activity],
+            *(_color(status, belief) for belief in known.beliefs),
+            *(palette.MATE for _ in known.mates),
+        ]
+        labels += [
+            scene.agent_names[status.uid],
+            *(f"T{belief.target}{_age(belief.age_s)}" for belief in known.beliefs),
+            *(f"A{mate.uid}{_age(mate.age_s)}" for mate in known.mates),
+        ]
+        counts.append(1 + len(known.beliefs) + len(known.mates))
+    points = rr.Points3D.columns(positions=_flat(places), colors=np.array(colors, dtype=np.uint32), labels=labels)
+    return points.partition(counts)
+
+
+def _errors(told: Sequence[_Told]) -> rr.ComponentColumnList:
+    """A line from where each target is believed to be to where it is."""
+    ends, colors, counts = [], [], []
+    for one in told:
+        pairs = [(belief, truth) for belief in one.knowledge.beliefs if (truth := one.truth(belief)).present]
+        ends += [place for belief, truth in pairs for place in (belief.place_m, (truth.x_m, truth.y_m))]
+        colors += [_color(one.status, belief) for belief, _ in pairs]
+        counts.append(len(pairs))
+    return pieces(_flat(ends), np.array(colors, dtype=np.uint32), np.array(counts, dtype=np.int64))
+
+
+def _wanted(told: Sequence[_Told]) -> rr.ComponentColumnList:
+    """Where it wants to go."""
+    wanted = np.array([one.knowledge.wanted_m_s for one in told]).reshape(-1, 2)
+    colors = np.array([palette.ACTIVITY_COLORS[one.status.activity] for one in told], dtype=np.uint32)
+    arrows = rr.Arrows3D.columns(
+        origins=_flat([one.me for one in told]), vectors=_flat(_ARROW_S * wanted), colors=colors
+    )
+    return arrows.partition([1] * len(told))
+
+
+def _sight(told: Sequence[_Told], range_m: float) -> rr.ComponentColumnList:
+    """How far it sees."""
+    colors = np.array([palette.ACTIVITY_COLORS[one.status.activity] for one in told], dtype=np.uint32)
+    counts = np.ones(len(told), dtype=np.int64)
+    return rings(_flat([one.me for one in told]), range_m, faded(colors, _SIGHT_ALPHA), counts)
+
+
+def _flat(places: Sequence[tuple[float, float]] | np.ndarray) -> np.ndarray:
+    flat = stored(np.asarray(places, dtype=np.float64).reshape(-1, 2))
+    return np.concatenate((flat, np.zeros_like(flat[:, :1])), axis=1)
+
+
+def _color(status: AgentStatus, belief: Belief) -> int:
+    """What a belief means to the agent: its own, to be helped, called for, a mate's, seen, or a memory."""
+    if belief.target == status.helping:
+        return palette.ACTIVITY_COLORS[Activity.HELPING]
+    if belief.caller is not None:
+        return palette.ACTIVITY_COLORS[Activity.CALLING]
+    if belief.owner == status.uid:
+        return palette.ACTIVITY_COLORS[Activity.FOLLOW]
+    if belief.owner is not None:
+        return palette.TAGGED
+    return palette.SEEN if belief.sensed else palette.REMEMBERED
+
+
+def _age(age_s: float) -> str:
+    return "" if age_s < _FRESH_S else f", {age_s:.0f} s ago"
+
+
+def page(scene: Scene, status: AgentStatus, observation: Observation) -> str:
+    """What an agent knew and wanted, as Markdown; empty of beliefs while it is not on duty."""
+    known = status.knowledge or Knowledge()
+    title = f"### {scene.agent_names[status.uid]}: {status.activity.value} at {observation.time_s:.1f} s"
+    east, north = known.wanted_m_s
+    wish = [f"**{known.why}** (at {hypot(east, north):.1f} m/s)"] if known.why else []
+    rows = [_row(belief, observation.targets[belief.target]) for belief in known.beliefs]
+    beliefs = ["\n".join((_HEADER, *rows))] if rows else ["It knows of no target."]
+    heard = ", ".join(f"A{mate.uid}{_age(mate.age_s)}" for mate in known.mates)
+    return "\n\n".join((title, *wish, *beliefs, f"It hears {heard or 'nobody'}."))
+
+
+def _row(belief: Belief, truth: TargetTruth) -> str:
+    x, y = belief.place_m
+    known = "sees it" if belief.sensed else f"{belief.age_s:.1f} s ago"
+    off = f"{hypot(x - truth.x_m, y - truth.y_m):.1f} m" if truth.present else "it is gone"
+    cells = (
+        f"T{belief.target}",
+        f"{x:.1f}, {y:.1f}",
+        known,
+        _who(belief.owner),
+        _who(belief.caller),
+        _seconds(belief.loss_in_s),
+        _who(belief.answerer),
+        _seconds(belief.capture_s),
+        off,
+    )
+    return f"| {' | '.join(cells)} |"
+
+
+def _who(uid: int | None) -> str:
+    return "" if uid is None else f"A{uid}"
+
+
+def _seconds(span_s: float | None) -> str:
+    return "" if span_s is None else f"{span_s:.1f} s"
