@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterable, Mapping
 from math import atan2, cos, radians
 
@@ -10,6 +11,7 @@ from comms.chance import PLACE_AGENT
 from comms.frames import GeoPoint, enu_from_geo, geo_from_enu
 from comms.keys import Keys
 from comms.session import Bus
+from comms.signing import Signing, read_key
 from comms.transport import Transport
 from missions.mission import CircleFence, Disc, Mission, PolygonFence, TrackTargets
 from missions.rules import start_places
@@ -164,10 +166,17 @@ def agents(mission: Mission, uids: Iterable[int], n_targets: int) -> list[Agent]
                     acceleration_m_s2=mission.vehicle.limits.acceleration_m_s2,
                     battery_reserve=mission.safety.battery_reserve,
                 ),
-            )
+            ),
+            signing=signing(mission, uid),
         )
         for uid in uids
     ]
+
+
+def signing(mission: Mission, uid: int) -> Signing | None:
+    """How the link to agent `uid`'s vehicle is signed; None if it is not, or not there."""
+    file = mission.vehicle.signing_key
+    return None if file is None or mission.link(uid) is None else Signing(read_key(file), unix_time=time.time)
 
 
 def fence(mission: Mission) -> Fence:

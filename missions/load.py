@@ -31,7 +31,7 @@ LIBRARY = FilePath(__file__).parent / "library"
 P = TypeVar("P", bound=Part)
 
 _MAX_BYTES = 1_000_000
-_FILES: tuple[Path, ...] = (("targets", "file"), ("policy", "weights"))
+_FILES: tuple[Path, ...] = (("targets", "file"), ("policy", "weights"), ("vehicle", "signing_key"))
 
 
 def bundled_names() -> list[str]:

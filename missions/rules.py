@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from comms.arena import edge_distance_m
 from comms.chance import PLACE_AGENT
+from comms.signing import KeyFileError, read_key
 from missions.mission import CircleFence, Mission, MovingTargets, PolygonFence, TrackTargets
 from missions.problems import InputError, Path, shown
 from missions.training.weights import read_weights
@@ -157,6 +158,19 @@ def _system_ids_are_for_links(mission: Mission) -> str | None:
     return f"none, or as many as vehicle.links ({len(mission.vehicle.links)}); these are {given}"
 
 
+def _signing_key_is_readable(mission: Mission) -> str | None:
+    file = mission.vehicle.signing_key
+    if file is None:
+        return None
+    if not any(mission.vehicle.links):
+        return "null where no vehicle is behind a link"
+    try:
+        read_key(file)
+    except KeyFileError as error:
+        return str(error).partition("allowed: ")[2]
+    return None
+
+
 def _vehicles_beat_the_wind(mission: Mission) -> str | None:
     wind, most_m_s = mission.vehicle.wind, mission.vehicle.limits.speed_m_s
     if wind.speed_m_s + wind.gust_m_s < most_m_s:
@@ -247,6 +261,7 @@ RULES = (
     Rule("vehicle.links", ("vehicle.kind", "agents.count"), _links_are_for_agents),
     Rule("tick_s", ("vehicle.kind", "vehicle.flavor"), _setpoints_come_often),
     Rule("vehicle.system_ids", ("vehicle.links",), _system_ids_are_for_links),
+    Rule("vehicle.signing_key", ("vehicle.links",), _signing_key_is_readable),
     Rule("vehicle.wind.speed_m_s", ("vehicle.wind.gust_m_s", "vehicle.limits.speed_m_s"), _vehicles_beat_the_wind),
     Rule("targets.file", (), _tracks_exist),
     Rule("policy.weights", (), _weights_are_readable),

@@ -15,6 +15,7 @@ from msgspec import structs
 
 from comms.knowledge import Knowledge
 from comms.messages import Frame, Sighting
+from comms.signing import Signing
 from comms.status import Activity, AgentStatus, HelpCallStatus
 from swarm_agent.autopilot import Fly, Intent, Phase, Pilot, PilotConfig, PilotState, Prepare, Return
 from swarm_agent.bcmommt.belief import NOBODY, Table, begin_tick, cell_columns, cell_rows, new_table, see
@@ -75,7 +76,8 @@ class Output(NamedTuple):
 class Agent:
     """Agent `uid` of a mission. It knows what it senses, what reaches its radio, and what its autopilot tells."""
 
-    def __init__(self, config: AgentConfig) -> None:
+    def __init__(self, config: AgentConfig, *, signing: Signing | None = None) -> None:
+        """`signing`: of the link to its vehicle, if that is signed."""
         self._config = config
         self._on_duty = False
         self._table, self._mind = self._innocence()
@@ -83,7 +85,7 @@ class Agent:
         self._seq = 0
         self._told: AgentStatus | None = None
         self._guard = Guard(config.safety)
-        self.pilot = Pilot(config.pilot)
+        self.pilot = Pilot(config.pilot, signing=signing)
 
     @property
     def uid(self) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field
@@ -74,6 +75,8 @@ class Vehicle(Part):
     """Where the vehicles are reached, by agent; null: that agent's is simulated. Only for kind `link`."""
     system_ids: Annotated[tuple[SystemId | None, ...], Field(strict=False), Allowed(SYSTEM_IDS)] = ()
     """The vehicles' MAVLink system ids, by agent; none or null: that of the first vehicle heard on the link."""
+    signing_key: Annotated[Path | None, Field(strict=False), Allowed("null, or the path of a key file")] = None
+    """Signs every link (MAVLink 2) with the key, or the passphrase, in this file, which its owner alone may read."""
     boot_s: Annotated[float, Field(ge=0, le=120)] = 2.0
     """Time from power-on until the autopilot is ready to arm."""
     limits: Limits = Limits()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
 from comms.mavlink import Endpoint, Message
+from comms.signing import Signing
 from comms.status import Event, Level
 from swarm_agent.autopilot.cockpit import Cockpit
 from swarm_agent.autopilot.config import PilotConfig
@@ -39,9 +40,12 @@ class Pilot:
         endpoint: the link's counters: `sent`, `received`, `bad`, `dropped`.
     """
 
-    def __init__(self, config: PilotConfig) -> None:
+    def __init__(self, config: PilotConfig, *, signing: Signing | None = None) -> None:
+        """`signing`: of this link, if it is signed: then nothing else is heard on it."""
         self.config = config
-        self.endpoint = Endpoint(system_id=config.ground_system_id, component_id=config.ground_component_id)
+        self.endpoint = Endpoint(
+            system_id=config.ground_system_id, component_id=config.ground_component_id, signing=signing
+        )
         self._cockpit = Cockpit(config, self.endpoint)
         self._streams = Streams()
         self._stage: Stage = Connect()

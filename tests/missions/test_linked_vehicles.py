@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable
 from pathlib import Path
 from types import TracebackType
@@ -13,6 +14,7 @@ from comms.clock import Lockstep
 from comms.frames import geo_from_enu
 from comms.mavlink import Endpoint
 from comms.session import open_local_bus
+from comms.signing import Signing
 from comms.status import Activity
 from comms.transport import Counts
 from missions.cli import main
@@ -189,6 +191,55 @@ def test_another_vehicle_than_the_one_named_is_left_alone() -> None:
     assert report["faults"][0]["what"] == "given up: no heartbeat from system 12 in 60 s"
     assert log.all[-1].statuses[0].activity is Activity.LOST
     assert not pipe.vehicle.truth.armed
+
+
+class SignedPipe(Pipe):
+    """A pipe whose vehicle hears and speaks on a signed link alone."""
+
+    def __init__(self, system_id: int, east_m: float, mission: Mission, *, key: bytes) -> None:
+        super().__init__(system_id, east_m, mission)
+        self._channel = self.vehicle.open_channel(signing=Signing(key, unix_time=lambda: 1.8e9))
+
+    def read(self, now_s: float) -> list[bytes]:
+        wire, self._up = self._up, b""
+        self._channel.hear(wire)
+        self.vehicle.tick(now_s)
+        return [self._channel.take()]
+
+
+@pytest.mark.parametrize("right", [True, False])
+def test_a_signed_link_is_flown_with_its_key_alone(right: bool, tmp_path: Path) -> None:
+    key = tmp_path / "key"
+    key.write_text("correct horse")
+    key.chmod(0o600)
+    mission = mission_of(f"vehicle.signing_key={key}", "vehicle.links=['tcp:127.0.0.1:1', null]", "duration_s=3")
+    theirs = hashlib.sha256(b"correct horse" if right else b"battery staple").digest()
+    flight, log, _ = fly(mission, {0: SignedPipe(7, 5.0, mission, key=theirs)})
+    assert ("heartbeat of an ardupilot vehicle, system 7" in log.said(0)) is right
+    refused = flight.agents[0].pilot.endpoint.signing
+    assert refused is not None
+    assert (refused.forged == 0) is right
+    assert flight.agents[1].pilot.endpoint.signing is None  # simulated: no link to sign
+
+
+@pytest.mark.parametrize(
+    ("mode", "links", "allowed"),
+    [
+        (0o644, "['tcp:127.0.0.1:1', null]", "mode 0600, nobody but its owner may read a key"),
+        (0o600, "[]", "null where no vehicle is behind a link"),
+    ],
+)
+def test_a_key_must_be_secret_and_of_use(
+    mode: int, links: str, allowed: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    key = tmp_path / "key"
+    key.write_text("correct horse")
+    key.chmod(mode)
+    kind = "link" if links != "[]" else "simulated"
+    vehicle = f"vehicle={{kind: {kind}, links: {links}, signing_key: {key}}}"
+    assert main(["check", "quickstart", "--set", "agents.count=2", "--set", vehicle]) == 2
+    assert "vehicle.signing_key: got" in (error := capsys.readouterr().err)
+    assert allowed in error
 
 
 def test_the_plan_says_how_they_are_reached() -> None:
