@@ -21,6 +21,9 @@ from missions.mission import Mission
 from missions.options import LaunchOptions, speed_of
 from missions.overrides import Override
 from missions.problems import InputError
+from missions.review.options import EXAMPLES as REVIEW_EXAMPLES
+from missions.review.options import add_options as add_review_options
+from missions.review.options import review_options
 from missions.sim.options import EXAMPLES as SIM_EXAMPLES
 from missions.sim.options import add_options as add_sim_options
 from missions.sim.options import link, signing_key, sim_options
@@ -131,9 +134,17 @@ def sim(options: argparse.Namespace) -> int:
     return simulate(sim_options(options))
 
 
+def review(options: argparse.Namespace) -> int:
+    """Tell what happened in a mission, from its recording."""
+    _need_extra("review", "ground", _REVIEW_PACKAGES)
+    from missions.review.command import review as tell
+
+    return tell(review_options(options))
+
+
 def study(options: argparse.Namespace) -> int:
     """Fly a study, all of the paper's, or merge what several computers have flown."""
-    _need_extra("study", _STUDY_PACKAGES)
+    _need_extra("study", "study", _STUDY_PACKAGES)
     from missions.study.command import StudyOptions, fly_paper, fly_study, merge
     from missions.study.shards import WHOLE
 
@@ -159,7 +170,7 @@ def study(options: argparse.Namespace) -> int:
 
 def train(options: argparse.Namespace) -> int:
     """Fit the learned predictor to study runs, and write its weights."""
-    _need_extra("train", _TRAIN_PACKAGES)
+    _need_extra("train", "study", _TRAIN_PACKAGES)
     from rich.console import Console
 
     from missions.training.train import train as fit
@@ -170,14 +181,15 @@ def train(options: argparse.Namespace) -> int:
     return DONE
 
 
-def _need_extra(verb: str, packages: Sequence[str]) -> None:
+def _need_extra(verb: str, extra: str, packages: Sequence[str]) -> None:
     missing = [name for name in packages if find_spec(name) is None]
     if missing:
-        need = f"swarm {verb} needs the `study` extra: pip install 'swarm-mission-stack[study]'"
+        need = f"swarm {verb} needs the `{extra}` extra: pip install 'swarm-mission-stack[{extra}]'"
         raise InputError(f"{need} (no module {missing[0]!r})")
 
 
 _NEVER_WRAP = 1000
+_REVIEW_PACKAGES = ("numpy", "rerun", "matplotlib")
 _STUDY_PACKAGES = ("numpy", "numba", "pyarrow", "matplotlib")
 _TRAIN_PACKAGES = ("numpy", "numba", "torch")
 
@@ -186,6 +198,7 @@ _TOP = """examples:
   swarm launch quickstart --set agents.count=5 --report -
   swarm check my.yaml                  every mistake, with line, key and what is allowed
   swarm plan wildlife                  what would run, as tables
+  swarm review out/q.rrd               what happened in a recorded mission, and why
   swarm sim --port 5760                one vehicle for QGroundControl, MAVProxy or MAVSDK
   swarm study figure-16 --runs 20      many missions, compared
 
@@ -282,6 +295,8 @@ def _parser() -> argparse.ArgumentParser:
     _one_mission(planning)
 
     add_sim_options(_verb(verbs, "sim", sim, "fly one vehicle in real time, as ArduCopter SITL does", SIM_EXAMPLES))
+
+    add_review_options(_verb(verbs, "review", review, "tell what happened, from a recording", REVIEW_EXAMPLES))
 
     _add_study(_verb(verbs, "study", study, "fly many missions and compare them", _STUDY))
 

@@ -6,8 +6,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import hypot, inf
 
+from comms.frames import Vec3
 from comms.status import Activity, AgentStatus, Level
-from missions.observation import Observation
+from missions.coverage import Coverage
+from missions.observation import PLACES_PER_M, Observation, Totals
 
 MAX_FAULTS = 1000
 # A call that pauses for less than this is the same call: which of two tags is the nearest changes from tick to tick.
@@ -51,8 +53,15 @@ class Fault:
 
 @dataclass(slots=True)
 class Metrics:
-    """An observer that counts."""
+    """An observer that counts.
 
+    Attributes:
+        ticks: of MISSION so far. totals: as of the last tick.
+    """
+
+    coverage: Coverage = field(default_factory=Coverage)
+    ticks: int = 0
+    totals: Totals = field(default_factory=Totals)
     events: EventCount = field(default_factory=EventCount)
     help: HelpCount = field(default_factory=HelpCount)
     faults: list[Fault] = field(default_factory=list)
@@ -66,8 +75,14 @@ class Metrics:
         """Count one tick."""
         on_duty = observation.mission_tick is not None
         self.tick_late_s_max = max(self.tick_late_s_max, observation.tick_late_s)
+        self.totals = observation.totals
         self._count_faults(observation)
         if on_duty:
+            self.ticks += 1
+            self.coverage.add(
+                seen=sum(target.seen for target in observation.targets),
+                present=sum(target.present for target in observation.targets),
+            )
             before = self._before if self._on_duty_before else ()
             _count_tags(self.events, _owners(before), _owners(observation.statuses))
             _count_help(self.help, before, observation.statuses)
@@ -108,11 +123,10 @@ class Metrics:
 
     def _watch_separation(self, observation: Observation) -> None:
         """Agents on one layer of air (there are more agents than layers) must keep apart by themselves."""
-        truths = observation.truths
-        for low in range(len(truths)):
-            x, y, z = truths[low].position_m
-            for high in range(low + 1, len(truths)):
-                other_x, other_y, other_z = truths[high].position_m
+        places = [_on_grid(truth.position_m) for truth in observation.truths]
+        for low, (x, y, z) in enumerate(places):
+            for high in range(low + 1, len(places)):
+                other_x, other_y, other_z = places[high]
                 if abs(z - other_z) < CLOSE_M and hypot(x - other_x, y - other_y) < CLOSE_M:
                     self._met(observation.time_s, low, high)
 
@@ -120,6 +134,15 @@ class Metrics:
         if (low, high) not in self._close:
             self._close.add((low, high))
             self.fault(time_s, high, f"came within {CLOSE_M:g} m of agent {low}")
+
+
+def _on_grid(place_m: Vec3) -> Vec3:
+    x, y, z = place_m
+    return (
+        round(x * PLACES_PER_M) / PLACES_PER_M,
+        round(y * PLACES_PER_M) / PLACES_PER_M,
+        round(z * PLACES_PER_M) / PLACES_PER_M,
+    )
 
 
 def _owners(statuses: Sequence[AgentStatus]) -> dict[int, set[int]]:

@@ -9,6 +9,9 @@ from typing import Protocol
 from comms.frames import Vec3
 from comms.status import AgentStatus, Event
 
+# Places are compared and recorded on this grid, so that whoever reads a recording counts what was counted in flight.
+PLACES_PER_M = 64
+
 
 class Phase(StrEnum):
     """Where the mission as a whole stands. Targets move, and coverage counts, in MISSION alone."""
@@ -39,6 +42,30 @@ class TargetTruth:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Totals:
+    """What went over the air and over MAVLink since power-on, of all agents together.
+
+    Attributes:
+        radio_sent, radio_bytes: per frame. radio_delivered, radio_out_of_range, radio_lost: per frame and receiver.
+        mavlink_sent, mavlink_received, mavlink_bad, mavlink_dropped: at the agents' ends of their links.
+        vehicles_received, vehicles_bad, vehicles_dropped: at the simulated vehicles' ends.
+    """
+
+    radio_sent: int = 0
+    radio_delivered: int = 0
+    radio_out_of_range: int = 0
+    radio_lost: int = 0
+    radio_bytes: int = 0
+    mavlink_sent: int = 0
+    mavlink_received: int = 0
+    mavlink_bad: int = 0
+    mavlink_dropped: int = 0
+    vehicles_received: int = 0
+    vehicles_bad: int = 0
+    vehicles_dropped: int = 0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Observation:
     """One tick of a mission, whole.
 
@@ -50,7 +77,7 @@ class Observation:
         coverage: share of the present targets seen now; None outside MISSION. coverage_mean: eq. 1 over n, so far.
         utilization: coverage_mean x n / m.
         tick_late_s: how late this tick began against the wall clock; 0 in lockstep.
-        radio: totals so far: frames sent, delivered, bytes.
+        totals: what was sent and received so far.
         events: what the mission itself has to say, e.g. "mission starts".
     """
 
@@ -66,9 +93,7 @@ class Observation:
     coverage_mean: float | None = None
     utilization: float | None = None
     tick_late_s: float = 0.0
-    radio_sent: int = 0
-    radio_delivered: int = 0
-    radio_bytes: int = 0
+    totals: Totals = Totals()
     events: tuple[Event, ...] = ()
 
 

@@ -8,17 +8,18 @@ from __future__ import annotations
 import json
 import platform
 from collections.abc import Mapping
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from missions.metrics import Metrics
 from missions.plan import coverage_floor
-from missions.sides.world import WorldSide
 
 if TYPE_CHECKING:
     from rich.table import Table
+
+    from missions.sides.world import WorldSide
 
 Report = dict[str, Any]
 
@@ -26,51 +27,82 @@ PACKAGES = ("swarm-mission-stack", "eclipse-zenoh", "pymavlink")
 _DIGITS = 6
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Facts:
+    """What a report says of a mission before anything has happened in it."""
+
+    mission: str
+    policy: str
+    seed: int
+    agents: int
+    targets: int
+    tick_s: float
+    coverage_floor: float | None
+    versions: Mapping[str, str]
+
+
 def make_report(side: WorldSide, metrics: Metrics, *, wall_s: float, recording: Path | None) -> Report:
     """Everything worth keeping of a flight that has ended."""
     mission = side.mission
-    n_agents, n_targets = mission.agents.count, len(side.world.places)
-    duration_s = side.ticks_flown * mission.tick_s
-    coverage = side.coverage.mean
-    count = side.air.count
-    pilots, vehicles = [done.pilot for done in side.dones], [done.vehicle for done in side.dones]
+    facts = Facts(
+        mission=mission.name,
+        policy=mission.policy.name,
+        seed=mission.seed,
+        agents=mission.agents.count,
+        targets=len(side.world.places),
+        tick_s=mission.tick_s,
+        coverage_floor=coverage_floor(mission),
+        versions=versions(PACKAGES),
+    )
+    return report_of(facts, metrics, wall_s=wall_s, clock_s=side.clock_s, recording=recording)
+
+
+def report_of(
+    facts: Facts, metrics: Metrics, *, wall_s: float | None, clock_s: float, recording: Path | None
+) -> Report:
+    """The report of a mission that was observed, in flight or in its recording.
+
+    Args:
+        wall_s: how long it took; None when nobody knows. clock_s: the mission clock at its end.
+    """
+    coverage, totals = metrics.coverage.mean, metrics.totals
     return {
-        "mission": mission.name,
-        "policy": mission.policy.name,
-        "seed": mission.seed,
-        "agents": n_agents,
-        "targets": n_targets,
-        "duration_s": _rounded(duration_s),
+        "mission": facts.mission,
+        "policy": facts.policy,
+        "seed": facts.seed,
+        "agents": facts.agents,
+        "targets": facts.targets,
+        "duration_s": _rounded(metrics.ticks * facts.tick_s),
         "coverage": _rounded(coverage),
-        "coverage_late": _rounded(side.coverage.late),
-        "coverage_floor": _rounded(coverage_floor(mission)),
-        "utilization": None if coverage is None else _rounded(coverage * n_targets / n_agents),
+        "coverage_late": _rounded(metrics.coverage.late),
+        "coverage_floor": _rounded(facts.coverage_floor),
+        "utilization": None if coverage is None else _rounded(coverage * facts.targets / facts.agents),
         "events": asdict(metrics.events),
         "help": asdict(metrics.help),
         "radio": {
-            "sent": count.sent,
-            "delivered": count.delivered,
-            "out_of_range": count.out_of_range,
-            "lost": count.lost,
-            "bytes": count.bytes,
+            "sent": totals.radio_sent,
+            "delivered": totals.radio_delivered,
+            "out_of_range": totals.radio_out_of_range,
+            "lost": totals.radio_lost,
+            "bytes": totals.radio_bytes,
         },
         "mavlink": {
-            "sent": sum(end.sent for end in pilots),
-            "received": sum(end.received for end in pilots),
-            "bad": sum(end.bad for end in pilots),
-            "dropped": sum(end.dropped for end in pilots),
+            "sent": totals.mavlink_sent,
+            "received": totals.mavlink_received,
+            "bad": totals.mavlink_bad,
+            "dropped": totals.mavlink_dropped,
             "vehicles": {
-                "received": sum(end.received for end in vehicles),
-                "bad": sum(end.bad for end in vehicles),
-                "dropped": sum(end.dropped for end in vehicles),
+                "received": totals.vehicles_received,
+                "bad": totals.vehicles_bad,
+                "dropped": totals.vehicles_dropped,
             },
         },
         "faults": [asdict(fault) for fault in metrics.faults],
         "recording": None if recording is None else str(recording),
-        "versions": versions(PACKAGES),
+        "versions": dict(facts.versions),
         "timing": {
-            "wall_s": round(wall_s, 3),
-            "realtime_factor": round(side.clock_s / wall_s, 2) if wall_s > 0 else None,
+            "wall_s": None if wall_s is None else round(wall_s, 3),
+            "realtime_factor": round(clock_s / wall_s, 2) if wall_s else None,
             "tick_late_s_max": round(metrics.tick_late_s_max, 4),
         },
     }
@@ -121,8 +153,9 @@ def _lines(report: Report) -> Mapping[str, str]:
         f"{radio['lost']} lost, {radio['bytes'] / 1e6:.1f} MB",
         "mavlink": f"{mavlink['sent']} sent, {mavlink['received']} received, {mavlink['bad']} bad, "
         f"{mavlink['dropped']} dropped",
-        "time": f"{timing['wall_s']:.1f} s, {timing['realtime_factor']} times real time from power-on to landed",
     }
+    if timing["wall_s"] is not None:
+        lines["time"] = f"{timing['wall_s']:.1f} s, {timing['realtime_factor']} times real time from power-on to landed"
     if report["recording"]:
         lines["recording"] = report["recording"]
     for fault in report["faults"][:10]:

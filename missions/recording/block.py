@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from comms.status import Activity
-from missions.observation import Observation
+from missions.observation import PLACES_PER_M, Observation
 from missions.recording.palette import ACTIVITY_COLORS
 from missions.recording.scene import Scene
 
@@ -23,13 +23,10 @@ Mask = npt.NDArray[np.bool_]
 # Bodies are drawn at every tick; what hangs on them this often. At 10 Hz nobody sees the difference, but the disk does.
 LINE_STEP_S = 0.2
 
-# Positions are stored to 1/64 m: nobody sees less, and the zeros in the mantissa halve the file.
-_STEPS_PER_M = 64.0
-
 
 def stored(values: npt.ArrayLike) -> Floats:
-    """`values` as they are stored: 32-bit floats rounded to 1/64."""
-    return (np.round(np.asarray(values, dtype=np.float64) * _STEPS_PER_M) / _STEPS_PER_M).astype(np.float32)
+    """`values` as they are stored: 32-bit floats rounded to 1/64. Nobody sees less, and it halves the file."""
+    return (np.round(np.asarray(values, dtype=np.float64) * PLACES_PER_M) / PLACES_PER_M).astype(np.float32)
 
 
 @dataclass(frozen=True)

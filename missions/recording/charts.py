@@ -41,7 +41,8 @@ class Metrics:
             if before is None or seen.time_s <= before.time_s:
                 continue
             span_s = seen.time_s - before.time_s
-            sent, delivered = seen.radio_sent - before.radio_sent, seen.radio_delivered - before.radio_delivered
+            now, then = seen.totals, before.totals
+            sent, delivered = now.radio_sent - then.radio_sent, now.radio_delivered - then.radio_delivered
             rates.append((sent / span_s, delivered / span_s))
             since.append(seen)
         yield Rows("/metrics/net", Block(self._scene, since), _vectors(rates, 2))

@@ -2,21 +2,8 @@
 
 from __future__ import annotations
 
-from comms.status import Activity, Level
-
-ACTIVITY_COLORS: dict[Activity, int] = {
-    Activity.PREPARING: 0x9FB3C8FF,
-    Activity.TAKEN_OVER: 0xFF8FD0FF,
-    Activity.EXPLORE: 0x4FA3FFFF,
-    Activity.FOLLOW: 0x3DDC97FF,
-    Activity.CALLING: 0xFFB020FF,
-    Activity.HELPING: 0xC77DFFFF,
-    Activity.RETURNING: 0x8A94A6FF,
-    Activity.LANDED: 0x5B6472FF,
-    Activity.LOST: 0xFF5C5CFF,
-}
-
-LEVEL_COLORS: dict[Level, int] = {Level.INFO: 0xC9D3E0FF, Level.WARNING: 0xFFB020FF, Level.ERROR: 0xFF5C5CFF}
+from missions.colors import ACTIVITY_COLORS as ACTIVITY_COLORS
+from missions.colors import LEVEL_COLORS as LEVEL_COLORS
 
 TAGGED = 0xFFE066FF  # ring of a target that somebody owns
 SEEN = 0xD8BE58B0  # ring of a target that is seen, and nobody's

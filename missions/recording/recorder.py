@@ -16,6 +16,7 @@ from missions.recording.blueprint import blueprint
 from missions.recording.charts import Metrics, Telemetry
 from missions.recording.columns import Layer
 from missions.recording.ground import SeenGround
+from missions.recording.ledger import Ledger
 from missions.recording.messages import Messages
 from missions.recording.minds import Minds
 from missions.recording.optimize import optimize
@@ -31,7 +32,9 @@ from missions.recording.targets import Targets
 _QUEUED_S = 5.0
 # Mission time from one flush to the next: what a killed process loses, and what a live viewer lags behind.
 _FLUSH_S, _LIVE_FLUSH_S = 1.0, 0.2
-_LAYERS = (SeenGround, Swarm, Targets, Relations, Lanes, EventLog, Metrics, Telemetry, Places, Minds, Messages)
+_LAYERS = (
+    SeenGround, Swarm, Targets, Relations, Lanes, EventLog, Metrics, Telemetry, Places, Minds, Messages, Ledger,
+)  # fmt: skip
 _log = logging.getLogger(__name__)
 
 

@@ -54,7 +54,7 @@ class Scene:
     @property
     def agent_names(self) -> list[str]:
         """ "A0", "A1", ...: as agents call each other; the viewer sorts A2 before A10."""
-        return [f"A{uid}" for uid in range(self.n_agents)]
+        return agent_names(self.n_agents)
 
     @property
     def target_names(self) -> list[str]:
@@ -65,3 +65,8 @@ class Scene:
     def recording_id(self) -> str:
         """A UUID that depends on nothing but the scene, so that the same mission records the same."""
         return str(uuid.uuid5(_NAMESPACE, repr(asdict(self))))
+
+
+def agent_names(count: int) -> list[str]:
+    """ "A0", "A1", ..."""
+    return [f"A{uid}" for uid in range(count)]

@@ -210,6 +210,7 @@ def _set_properties(tape: Tape, scene: Scene) -> None:
             agents=scene.n_agents,
             targets=scene.n_targets,
             tick_s=scene.tick_s,
+            coverage_floor=scene.coverage_floor,
             yaml=scene.mission_yaml,
         ),
     )

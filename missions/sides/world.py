@@ -11,7 +11,7 @@ from comms.session import Bus
 from missions import compose
 from missions.coverage import Coverage
 from missions.mission import Mission
-from missions.observation import Observation, Observer, Phase, TargetTruth
+from missions.observation import Observation, Observer, Phase, TargetTruth, Totals
 from missions.sides.exchange import Cue, Done
 from missions.sides.phases import Phases
 
@@ -125,7 +125,6 @@ class WorldSide:
         on_duty = mission_tick is not None
         mean = self.coverage.mean if on_duty else None
         targets, seen = self.world.places, self.world.seen
-        count = self.air.count
         return Observation(
             tick=self._tick,
             time_s=self.clock_s,
@@ -144,10 +143,25 @@ class WorldSide:
             coverage_mean=mean,
             utilization=None if mean is None else mean * len(targets) / len(dones),
             tick_late_s=self._late_s,
+            totals=self._totals(dones),
+            events=self._phases.announcement(self._tick),
+        )
+
+    def _totals(self, dones: Sequence[Done]) -> Totals:
+        count, pilots, vehicles = self.air.count, [done.pilot for done in dones], [done.vehicle for done in dones]
+        return Totals(
             radio_sent=count.sent,
             radio_delivered=count.delivered,
+            radio_out_of_range=count.out_of_range,
+            radio_lost=count.lost,
             radio_bytes=count.bytes,
-            events=self._phases.announcement(self._tick),
+            mavlink_sent=sum(end.sent for end in pilots),
+            mavlink_received=sum(end.received for end in pilots),
+            mavlink_bad=sum(end.bad for end in pilots),
+            mavlink_dropped=sum(end.dropped for end in pilots),
+            vehicles_received=sum(end.received for end in vehicles),
+            vehicles_bad=sum(end.bad for end in vehicles),
+            vehicles_dropped=sum(end.dropped for end in vehicles),
         )
 
 

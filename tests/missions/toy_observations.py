@@ -10,7 +10,7 @@ from comms.arena import Arena, rectangle
 from comms.chance import draw
 from comms.frames import GeoPoint
 from comms.status import Activity, AgentStatus, Event, HelpCallStatus, Level
-from missions.observation import AgentTruth, Observation, Phase, TargetTruth
+from missions.observation import AgentTruth, Observation, Phase, TargetTruth, Totals
 from missions.recording import Scene
 
 _TURN, _START = 101, 102
@@ -130,8 +130,7 @@ class _Toy:
             coverage_mean=mean,
             utilization=mean,
             tick_late_s=0.001 * draw(self.scene.seed, tick, 0, _TURN),
-            radio_sent=self.sent,
-            radio_delivered=self.delivered,
+            totals=Totals(radio_sent=self.sent, radio_delivered=self.delivered),
             events=(Event(Level.INFO, "mission starts"),) if tick == PREPARATION else (),
         )
 

@@ -1,0 +1,99 @@
+"""Help calls, one by one: who called for what, who set out, and how it ended."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from comms.status import AgentStatus
+from missions.metrics import CALL_PAUSE_S
+from missions.observation import Observation
+
+
+class Fate(StrEnum):
+    """How a call ended, for the target that was called for."""
+
+    HANDED_OVER = "handed over"  # a helper has it
+    TAKEN = "taken by a passer-by"  # somebody has it who had not set out to help
+    KEPT = "kept"  # the caller follows it still
+    LOST = "lost"  # nobody has it
+    OPEN = "open"  # the mission ended first
+
+
+@dataclass(slots=True)
+class Call:
+    """One agent calling for one target, however often it is renewed.
+
+    Attributes:
+        began_s, ended_s: mission clock of the first and the last tick with the call out.
+        urgent: whether a loss was foreseen at any time; else it was an offer. loss_in_s: as foreseen at first.
+        helpers: who set out for the target meanwhile, in order. owner: who has it in the end, if anybody.
+    """
+
+    caller: int
+    target: int
+    began_s: float
+    ended_s: float
+    urgent: bool
+    loss_in_s: float
+    helpers: list[int] = field(default_factory=list)
+    fate: Fate = Fate.OPEN
+    owner: int | None = None
+
+    @property
+    def lasted_s(self) -> float:
+        """How long it was out."""
+        return self.ended_s - self.began_s
+
+
+def calls_of(observations: Sequence[Observation]) -> list[Call]:
+    """Every call of the mission, in the order of their beginnings; as many as the report counts."""
+    watch = _Watch()
+    for seen in observations:
+        if seen.mission_tick is not None:
+            watch.observe(seen)
+    return watch.calls
+
+
+class _Watch:
+    """Open calls by (caller, target). One that pauses for CALL_PAUSE_S is over."""
+
+    def __init__(self) -> None:
+        self.calls: list[Call] = []
+        self._open: dict[tuple[int, int], Call] = {}
+
+    def observe(self, seen: Observation) -> None:
+        """Renew, begin and end calls."""
+        for status in seen.statuses:
+            for call in status.calls:
+                key = (status.uid, call.target)
+                known = self._open.get(key)
+                if known is None or seen.time_s - known.ended_s > CALL_PAUSE_S:
+                    known = Call(status.uid, call.target, seen.time_s, seen.time_s, call.urgent, call.loss_in_s)
+                    self._open[key] = known
+                    self.calls.append(known)
+                known.ended_s = seen.time_s
+                known.urgent |= call.urgent
+        self._follow(seen)
+
+    def _follow(self, seen: Observation) -> None:
+        for key, call in list(self._open.items()):
+            for status in seen.statuses:
+                if status.helping == call.target and status.uid not in call.helpers:
+                    call.helpers.append(status.uid)
+            if seen.time_s - call.ended_s > CALL_PAUSE_S:
+                call.fate, call.owner = _fate(call, seen.statuses)
+                del self._open[key]
+
+
+def _fate(call: Call, statuses: Sequence[AgentStatus]) -> tuple[Fate, int | None]:
+    owners = [status.uid for status in statuses if call.target in status.tags]
+    if not owners:
+        return Fate.LOST, None
+    helpers = [uid for uid in owners if uid in call.helpers]
+    if helpers:
+        return Fate.HANDED_OVER, helpers[0]
+    if call.caller in owners:
+        return Fate.KEPT, call.caller
+    return Fate.TAKEN, owners[0]

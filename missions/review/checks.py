@@ -1,0 +1,113 @@
+"""Conditions for scripts: `coverage > .9 and help.calls < 30`, over the numbers of a report.
+
+    condition ::= comparison { "and" comparison }
+    comparison ::= term OP term          OP: < <= > >= == !=
+    term ::= number | 90% | a name of the report, such as coverage or radio.lost
+
+Nothing is evaluated but this. A number that the report does not have (no coverage, since the mission never began)
+fulfills no comparison.
+"""
+
+from __future__ import annotations
+
+import operator
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from missions.problems import InputError, any_of, did_you_mean
+from missions.report import Report
+
+Numbers = Mapping[str, float | None]
+
+_OPERATORS: dict[str, Callable[[float, float], bool]] = {
+    "<=": operator.le,
+    ">=": operator.ge,
+    "==": operator.eq,
+    "!=": operator.ne,
+    "<": operator.lt,
+    ">": operator.gt,
+}
+_TOKEN = re.compile(
+    r"\s*(?:(?P<number>[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:e[+-]?\d+)?)(?P<percent>\s*%)?"
+    r"|(?P<name>[A-Za-z_][A-Za-z0-9_.]*)|(?P<operator><=|>=|==|!=|<|>))",
+    re.IGNORECASE,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """Whether a condition holds, and the numbers it was about."""
+
+    condition: str
+    holds: bool
+    found: Numbers
+
+    def __str__(self) -> str:
+        found = ", ".join(
+            f"{name} = {'none' if number is None else f'{number:g}'}" for name, number in self.found.items()
+        )
+        return f"{'holds' if self.holds else 'FAILS'}: {self.condition}" + (f"   ({found})" if found else "")
+
+
+def numbers_of(report: Report) -> dict[str, float | None]:
+    """Every number of a report by its dotted name; `faults` is how many there are."""
+    found: dict[str, float | None] = {}
+    for key, value in report.items():
+        if isinstance(value, Mapping):
+            found |= {f"{key}.{name}": number for name, number in numbers_of(dict(value)).items()}
+        elif isinstance(value, list):
+            found[key] = len(value)
+        elif value is None or (isinstance(value, (int, float)) and not isinstance(value, bool)):
+            found[key] = value
+    return found
+
+
+def judge(condition: str, numbers: Numbers) -> Verdict:
+    """Whether the condition holds.
+
+    Raises:
+        InputError: it is none, or names a number that there is not; the text says what is allowed.
+    """
+    words = _words(condition)
+    found: dict[str, float | None] = {}
+    holds = True
+    for place in range(0, len(words), 4):
+        left, sign, right, *joint = words[place : place + 4] + [""] * 3
+        if sign not in _OPERATORS or not right or (joint[0] and joint[0].lower() != "and"):
+            raise _bad(condition, f"comparisons such as coverage > .9 with {any_of(_OPERATORS)}, joined by and")
+        if joint[0] and place + 4 >= len(words):
+            raise _bad(condition, "another comparison behind and")
+        low, high = (_value(word, numbers, condition, found) for word in (left, right))
+        holds = holds and low is not None and high is not None and _OPERATORS[sign](low, high)
+    if not words:
+        raise _bad(condition, "a comparison such as coverage > .9")
+    return Verdict(condition, holds, found)
+
+
+def _words(condition: str) -> list[str]:
+    words, position = [], 0
+    text = condition.rstrip()
+    while position < len(text):
+        match = _TOKEN.match(text, position)
+        if match is None:
+            raise _bad(condition, f"a number, a name or {any_of(_OPERATORS)} at {text[position:].strip()[:20]!r}")
+        number, percent = match["number"], match["percent"]
+        words.append(str(float(number) / 100) if number and percent else match[0].strip())
+        position = match.end()
+    return words
+
+
+def _value(word: str, numbers: Numbers, condition: str, found: dict[str, float | None]) -> float | None:
+    try:
+        return float(word)
+    except ValueError:
+        pass
+    if word not in numbers:
+        raise _bad(condition, f"{any_of(numbers)}{did_you_mean(word, numbers)}", got=word)
+    found[word] = numbers[word]
+    return numbers[word]
+
+
+def _bad(condition: str, allowed: str, *, got: str | None = None) -> InputError:
+    return InputError(f'--check: got "{got or condition}"; allowed: {allowed}')

@@ -1,0 +1,123 @@
+"""Losses, one by one: who had the target, was help called, and who could have come."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import hypot
+
+from comms.status import Activity
+from missions.metrics import CALL_PAUSE_S
+from missions.observation import Observation
+from missions.review.calls import Call
+
+# Nobody foresees more: eq. 10 looks as far ahead (section 4.2).
+FORESIGHT_S = 20.0
+
+
+@dataclass(frozen=True, slots=True)
+class Chance:
+    """A free agent that could have had the target in sight when it was lost, had it left at once when it still could.
+
+    Attributes:
+        leave_by_s: the last moment (mission clock) at which it could have left. distance_m: to the target, at the loss.
+        heard: whether it was in radio contact with an owner at that moment.
+    """
+
+    agent: int
+    leave_by_s: float
+    distance_m: float
+    heard: bool
+
+
+@dataclass(slots=True)
+class Loss:
+    """A target that nobody follows any more.
+
+    Attributes:
+        time_s: mission clock of the first tick without an owner. owners: who had it until then.
+        call: the call that was out for it, if any. helpers: who was on the way.
+        chances: who could have prevented it; the one with the most time first.
+        found_after_s: until somebody had it again; None: never.
+    """
+
+    time_s: float
+    target: int
+    owners: tuple[int, ...]
+    call: Call | None
+    helpers: tuple[int, ...]
+    chances: tuple[Chance, ...]
+    found_after_s: float | None = None
+
+
+def losses_of(
+    observations: Sequence[Observation], calls: Sequence[Call], *, speed_m_s: float, sensing_range_m: float
+) -> list[Loss]:
+    """Every loss of the mission, in order; as many as the report counts."""
+    losses: list[Loss] = []
+    at_large: dict[int, Loss] = {}
+    lately: deque[Observation] = deque()
+    before: Mapping[int, tuple[int, ...]] = {}
+    for seen in observations:
+        if seen.mission_tick is None:
+            before = {}
+            continue
+        lately.append(seen)
+        while seen.time_s - lately[0].time_s > FORESIGHT_S:
+            lately.popleft()
+        owners = _owners(seen)
+        for target in at_large.keys() & owners.keys():
+            loss = at_large.pop(target)
+            loss.found_after_s = seen.time_s - loss.time_s
+        for target in sorted(before.keys() - owners.keys()):
+            chances = _chances(lately, target, before[target], speed_m_s=speed_m_s, sensing_range_m=sensing_range_m)
+            call = _call_out(calls, target, before[target], seen.time_s)
+            helpers = tuple(status.uid for status in seen.statuses if status.helping == target)
+            at_large[target] = Loss(seen.time_s, target, before[target], call, helpers, chances)
+            losses.append(at_large[target])
+        before = owners
+    return losses
+
+
+def _call_out(calls: Sequence[Call], target: int, owners: tuple[int, ...], time_s: float) -> Call | None:
+    """The call that an owner had out for the target, up to a pause ago."""
+    for call in calls:
+        if call.target == target and call.caller in owners and call.began_s <= time_s <= call.ended_s + CALL_PAUSE_S:
+            return call
+    return None
+
+
+def _owners(seen: Observation) -> dict[int, tuple[int, ...]]:
+    owners: dict[int, tuple[int, ...]] = {}
+    for status in seen.statuses:
+        for target in status.tags:
+            owners[target] = (*owners.get(target, ()), status.uid)
+    return owners
+
+
+def _chances(
+    lately: Sequence[Observation],
+    target: int,
+    owners: tuple[int, ...],
+    *,
+    speed_m_s: float,
+    sensing_range_m: float,
+) -> tuple[Chance, ...]:
+    """Free agents that, at full speed from where they were, would have been in sensing range when it was lost."""
+    lost = lately[-1]
+    place = lost.targets[target]
+    if not place.present:
+        return ()
+    found: dict[int, Chance] = {}
+    for seen in lately:  # later moments replace earlier ones
+        for uid, (status, truth) in enumerate(zip(seen.statuses, seen.truths, strict=True)):
+            if status.activity is not Activity.EXPLORE or uid in owners:
+                continue
+            x, y, _ = truth.position_m
+            way_m = hypot(x - place.x_m, y - place.y_m) - sensing_range_m
+            if way_m <= speed_m_s * (lost.time_s - seen.time_s):
+                x, y, _ = lost.truths[uid].position_m
+                heard = any({uid, owner} == {*link} for link in seen.links for owner in owners)
+                found[uid] = Chance(uid, seen.time_s, hypot(x - place.x_m, y - place.y_m), heard)
+    return tuple(sorted(found.values(), key=lambda chance: -chance.leave_by_s))

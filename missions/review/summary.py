@@ -1,0 +1,164 @@
+"""A review on one page of a terminal: outcome, coverage over time, losses, calls, radio, faults."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+
+from rich.console import Console, Group, RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from comms.status import Activity
+from missions.colors import ACTIVITY_COLORS, hex_color
+from missions.review.calls import Fate
+from missions.review.losses import Loss
+from missions.review.reading import Review
+from missions.review.series import buckets
+from missions.review.timeline import loss_words
+from missions.review.words import agent, clock, percent
+
+_BLOCKS = " ▁▂▃▄▅▆▇█"
+_COLUMNS = 60
+_SHOWN_LOSSES, _SHOWN_FAULTS = 12, 12
+_GOOD, _BAD, _DIM = hex_color(ACTIVITY_COLORS[Activity.FOLLOW]), hex_color(ACTIVITY_COLORS[Activity.LOST]), "dim"
+
+
+def print_summary(review: Review, console: Console) -> None:
+    """Print the page."""
+    console.print(Group(*_parts(review)))
+
+
+def _parts(review: Review) -> Iterable[RenderableType]:
+    yield _title(review)
+    yield from _warnings(review)
+    yield Text()
+    yield _facts(review)
+    if review.losses:
+        yield Text()
+        yield _losses(review)
+    if review.report["faults"]:
+        yield Text()
+        yield _faults(review)
+
+
+def _title(review: Review) -> Text:
+    report = review.report
+    outcome = ("complete", _GOOD) if review.complete else ("not complete", _BAD)
+    return Text.assemble(
+        (f"{report['mission']}", "bold"),
+        f", seed {report['seed']}: {report['agents']} agents over {report['targets']} targets, {report['policy']}, "
+        f"{clock(report['duration_s'])} of mission, ",
+        outcome,
+    )
+
+
+def _warnings(review: Review) -> Iterable[Text]:
+    if review.playback.torn:
+        end = clock(review.playback.observations[-1].time_s)
+        yield Text(f"The recorder was killed: repaired to be read, and ends at {end}.", "yellow")
+    if review.playback.ticks_missing:
+        text = f"{review.playback.ticks_missing} ticks are missing: counts are of those that are there."
+        yield Text(text, "yellow")
+
+
+def _facts(review: Review) -> Table:
+    report = review.report
+    events, radio, mavlink = report["events"], report["radio"], report["mavlink"]
+    table = Table.grid(padding=(0, 2))
+    table.add_column(style=_DIM)
+    table.add_column()
+    table.add_row(
+        "coverage",
+        f"[bold]{percent(report['coverage'])}[/]   last quarter {percent(report['coverage_late'])}   "
+        f"floor {percent(report['coverage_floor'])}",
+    )
+    if review.began_s is not None:
+        table.add_row("over time", _spark(review))
+        table.add_row("doing", _lane(review))
+    utilization = report["utilization"]
+    table.add_row("utilization", "–" if utilization is None else f"{utilization:.2f} targets seen per agent")
+    table.add_row(
+        "targets",
+        f"{events['target_discovery']} discovered, {events['target_loss']} lost, "
+        f"{events['tag_switch']} passed from one to another",
+    )
+    table.add_row("help", _help_words(review))
+    reached = radio["delivered"] + radio["out_of_range"] + radio["lost"]
+    share = percent(radio["delivered"] / reached if reached else None)
+    table.add_row(
+        "radio",
+        f"{radio['sent']} frames, {radio['bytes'] / 1e6:.1f} MB; {share} reached a mate, {radio['out_of_range']} "
+        f"were out of range, {radio['lost']} lost",
+    )
+    vehicles = mavlink["vehicles"]
+    table.add_row(
+        "MAVLink",
+        f"{mavlink['sent']} sent, {mavlink['received']} received; "
+        f"{mavlink['bad'] + vehicles['bad']} bad, {mavlink['dropped'] + vehicles['dropped']} dropped",
+    )
+    late_s = report["timing"]["tick_late_s_max"]
+    table.add_row("lateness", f"{1000 * late_s:.0f} ms at worst" if late_s else "none (lockstep)")
+    return table
+
+
+def _spark(review: Review) -> Text:
+    """Coverage over the mission as a row of blocks."""
+    spark = Text()
+    for bucket in buckets(review, _COLUMNS):
+        share = bucket.coverage
+        level = 0 if share is None else max(1, round(share * (len(_BLOCKS) - 1)))
+        spark.append(_BLOCKS[level], _GOOD if share is not None and share >= 0.9 else "")
+    return spark
+
+
+def _lane(review: Review) -> Text:
+    """What most agents did over the mission, as a row of colors, and what they stand for."""
+    lane, met = Text(), list[Activity]()
+    for bucket in buckets(review, _COLUMNS):
+        activity = bucket.activities.most_common(1)[0][0]
+        lane.append("█", hex_color(ACTIVITY_COLORS[activity]))
+    shares = Counter[Activity]()
+    for bucket in buckets(review, _COLUMNS):
+        shares += bucket.activities
+    whole = sum(shares.values()) or 1
+    lane.append("\n")
+    for activity, count in shares.most_common():
+        met.append(activity)
+        lane.append(f"{activity.value} {100 * count / whole:.0f} %  ", hex_color(ACTIVITY_COLORS[activity]))
+    return lane
+
+
+def _help_words(review: Review) -> str:
+    report = review.report["help"]
+    fates = Counter(call.fate for call in review.calls)
+    ends = ", ".join(f"{fates[fate]} {fate.value}" for fate in Fate if fates[fate])
+    return f"{report['calls']} calls" + (f": {ends}" if ends else "") + f"; {report['answered']} set out to help"
+
+
+def _losses(review: Review) -> Table:
+    table = Table(title="Losses", title_justify="left", title_style="bold", box=None, pad_edge=False, show_header=False)
+    for loss in _worst(review):
+        found = "never found again" if loss.found_after_s is None else f"found after {loss.found_after_s:.1f} s"
+        color = _BAD if loss.found_after_s is None or loss.found_after_s > 10.0 else ""
+        table.add_row(clock(loss.time_s), agent(loss.owners[0]), loss_words(loss), Text(found, color))
+    if len(review.losses) > _SHOWN_LOSSES:
+        table.add_row("", "", Text(f"and {len(review.losses) - _SHOWN_LOSSES} shorter ones: --events", _DIM), "")
+    return table
+
+
+def _worst(review: Review) -> Sequence[Loss]:
+    longest = sorted(review.losses, key=lambda loss: -(loss.found_after_s or float("inf")))[:_SHOWN_LOSSES]
+    return sorted(longest, key=lambda loss: loss.time_s)
+
+
+def _faults(review: Review) -> Table:
+    faults = review.report["faults"]
+    table = Table(title="Faults", title_justify="left", title_style=f"bold {_BAD}", box=None, pad_edge=False)
+    table.show_header = False
+    for fault in faults[:_SHOWN_FAULTS]:
+        who = "mission" if fault["agent"] is None else agent(fault["agent"])
+        table.add_row(clock(fault["time_s"]), who, fault["what"])
+    if len(faults) > _SHOWN_FAULTS:
+        table.add_row("", "", Text(f"and {len(faults) - _SHOWN_FAULTS} more: --json", _DIM))
+    return table

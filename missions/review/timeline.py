@@ -1,0 +1,121 @@
+"""The mission as a readable timeline: `2:31.4 A4 FOLLOW calls for help: T7, in 4 s`.
+
+Agents and autopilots tell it in their own words, as they are recorded. What nobody on board can know is added: how a
+call ended, which target everybody lost, and who could have prevented it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from comms.status import OFF_DUTY, Activity, Level
+from missions.observation import Observation
+from missions.review.calls import Call
+from missions.review.losses import Loss
+from missions.review.words import agent, agents, clock, target
+
+# A call that comes and goes with a prediction is told once in so long.
+_TOLD_AGAIN_S = 10.0
+_ABOUT = re.compile(r".*?\bT\d+\b")
+_STARTS = {
+    Activity.PREPARING: "prepares",
+    Activity.TAKEN_OVER: "is flown by a person",
+    Activity.EXPLORE: "explores",
+    Activity.RETURNING: "returns",
+    Activity.LANDED: "has landed",
+    Activity.LOST: "is lost",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """One line: when (mission clock), who (None: the mission), doing what, and what happened.
+
+    `routine`: it is said on every flight.
+    """
+
+    time_s: float
+    who: int | None
+    activity: Activity | None
+    level: Level
+    text: str
+    routine: bool = False
+
+    def __str__(self) -> str:
+        who = "mission" if self.who is None else agent(self.who)
+        doing = "" if self.activity is None else self.activity.value.upper()
+        return f"{clock(self.time_s):>8}  {who:<7}  {doing:<16}  {self.text}"
+
+
+def timeline_of(observations: Sequence[Observation], calls: Sequence[Call], losses: Sequence[Loss]) -> list[Line]:
+    """What happened, in order of time."""
+    lines = _without_echoes(line for seen in observations for line in _said(seen))
+    for before, now in pairwise(observations):
+        lines += _starts(before, now)
+    by_time = {seen.time_s: seen for seen in observations}
+    lines += [_line(by_time[call.ended_s], call.caller, Level.INFO, call_words(call)) for call in calls]
+    lines += [_line(by_time[loss.time_s], loss.owners[0], Level.WARNING, loss_words(loss)) for loss in losses]
+    return sorted(lines, key=lambda line: line.time_s)
+
+
+def call_words(call: Call) -> str:
+    """How a call ended, on one line."""
+    whom = f" to {agent(call.owner)}" if call.owner is not None and call.owner != call.caller else ""
+    came = f", {agents(call.helpers)} had set out" if call.helpers else ", nobody had set out"
+    return f"call for {target(call.target)} ends after {call.lasted_s:.1f} s: {call.fate.value}{whom}{came}"
+
+
+def loss_words(loss: Loss) -> str:
+    """A loss and what would have prevented it, on one line."""
+    called = "no call was out" if loss.call is None else f"called for {max(0.0, loss.time_s - loss.call.began_s):.1f} s"
+    coming = [f"{agents(loss.helpers)} on the way"] if loss.helpers else []
+    return "; ".join([f"nobody has {target(loss.target)} any more", called, *coming, _chance_words(loss)])
+
+
+def _chance_words(loss: Loss) -> str:
+    if not loss.chances:
+        return "nobody free was near enough"
+    best = loss.chances[0]
+    earshot = "heard its calls" if best.heard else "was out of earshot"
+    return f"{agent(best.agent)} could have come, leaving {loss.time_s - best.leave_by_s:.1f} s before; it {earshot}"
+
+
+def _said(seen: Observation) -> Iterator[Line]:
+    for event in seen.events:
+        yield Line(seen.time_s, None, None, event.level, event.text)
+    for status in seen.statuses:
+        for event in status.events:
+            routine = event.level is Level.INFO and status.activity in OFF_DUTY
+            yield Line(seen.time_s, status.uid, status.activity, event.level, event.text, routine)
+
+
+def _without_echoes(lines: Iterator[Line]) -> list[Line]:
+    """The lines without those in which a speaker repeats the last it said of a target."""
+    last: dict[tuple[int | None, str], tuple[str, float]] = {}
+    kept = []
+    for line in lines:
+        about = _ABOUT.match(line.text)
+        if about is not None:
+            words = about[0]
+            key = line.who, words.rpartition("T")[2]
+            before, at_s = last.get(key, ("", 0.0))
+            if before == words and line.time_s - at_s < _TOLD_AGAIN_S:
+                continue
+            last[key] = words, line.time_s
+        kept.append(line)
+    return kept
+
+
+def _starts(before: Observation, now: Observation) -> Iterator[Line]:
+    """Changes of activity that the speaker itself says nothing about."""
+    for old, new in zip(before.statuses, now.statuses, strict=True):
+        if new.activity is not old.activity and new.activity in _STARTS and not new.events:
+            level = Level.WARNING if new.activity is Activity.LOST else Level.INFO
+            yield _line(now, new.uid, level, _STARTS[new.activity])
+
+
+def _line(seen: Observation, uid: int, level: Level, text: str) -> Line:
+    return Line(seen.time_s, uid, seen.statuses[uid].activity, level, text)
