@@ -117,9 +117,6 @@ def _fly(flight: Flight, metrics: Metrics, request: StopRequest, console: Consol
             kept = recorder is None or _closed(recorder, metrics, flight)
         for link in links:
             console.print(str(link), soft_wrap=True, markup=False)
-    if request.asked and not flight.complete:
-        flown_s = flight.ticks_flown * mission.tick_s
-        metrics.fault(flight.clock_s, None, f"stopped by Ctrl-C after {flown_s:.1f} s of {mission.duration_s:g} s")
     return kept
 
 

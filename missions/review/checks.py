@@ -15,7 +15,7 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from missions.problems import InputError, any_of, did_you_mean
+from missions.problems import InputError, any_of, did_you_mean, shown
 from missions.report import Report
 
 Numbers = Mapping[str, float | None]
@@ -69,20 +69,24 @@ def judge(condition: str, numbers: Numbers) -> Verdict:
     Raises:
         InputError: it is none, or names a number that there is not; the text says what is allowed.
     """
-    words = _words(condition)
     found: dict[str, float | None] = {}
     holds = True
-    for place in range(0, len(words), 4):
-        left, sign, right, *joint = words[place : place + 4] + [""] * 3
-        if sign not in _OPERATORS or not right or (joint[0] and joint[0].lower() != "and"):
+    for words in _comparisons(condition):
+        if len(words) != 3 or words[1] not in _OPERATORS:
             raise _bad(condition, f"comparisons such as coverage > .9 with {any_of(_OPERATORS)}, joined by and")
-        if joint[0] and place + 4 >= len(words):
-            raise _bad(condition, "another comparison behind and")
-        low, high = (_value(word, numbers, condition, found) for word in (left, right))
-        holds = holds and low is not None and high is not None and _OPERATORS[sign](low, high)
-    if not words:
-        raise _bad(condition, "a comparison such as coverage > .9")
+        low, high = (_value(word, numbers, found) for word in (words[0], words[2]))
+        holds = holds and low is not None and high is not None and _OPERATORS[words[1]](low, high)
     return Verdict(condition, holds, found)
+
+
+def _comparisons(condition: str) -> list[list[str]]:
+    comparisons: list[list[str]] = [[]]
+    for word in _words(condition):
+        if word.lower() == "and":
+            comparisons.append([])
+        else:
+            comparisons[-1].append(word)
+    return comparisons
 
 
 def _words(condition: str) -> list[str]:
@@ -98,16 +102,16 @@ def _words(condition: str) -> list[str]:
     return words
 
 
-def _value(word: str, numbers: Numbers, condition: str, found: dict[str, float | None]) -> float | None:
+def _value(word: str, numbers: Numbers, found: dict[str, float | None]) -> float | None:
     try:
         return float(word)
     except ValueError:
         pass
     if word not in numbers:
-        raise _bad(condition, f"{any_of(numbers)}{did_you_mean(word, numbers)}", got=word)
+        raise _bad(word, f"{any_of(numbers)}{did_you_mean(word, numbers)}")
     found[word] = numbers[word]
     return numbers[word]
 
 
-def _bad(condition: str, allowed: str, *, got: str | None = None) -> InputError:
-    return InputError(f'--check: got "{got or condition}"; allowed: {allowed}')
+def _bad(given: str, allowed: str) -> InputError:
+    return InputError(f"--check: got {shown(given)}; allowed: {allowed}")

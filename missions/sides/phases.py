@@ -34,7 +34,9 @@ class Phases:
         self.began = 0
         self.ticks_flown = 0
         self._tick_s = tick_s
+        self._duration_s = duration_s
         self._duration_ticks = max(1, round(duration_s / tick_s))
+        self._stopped = False
         self._ready_since: int | None = None
 
     @property
@@ -47,14 +49,21 @@ class Phases:
         return tick - self.began if self.now is Phase.MISSION else None
 
     def announcement(self, tick: int) -> tuple[Event, ...]:
-        """What is to be said in this tick: that a phase begins, if one does."""
-        return (Event(Level.INFO, _ANNOUNCED[self.now]),) if tick == self.began else ()
+        """What is to be said in this tick: that a phase begins, if one does, and that it does so too early."""
+        if tick != self.began:
+            return ()
+        begins = Event(Level.INFO, _ANNOUNCED[self.now])
+        if not self._stopped:
+            return (begins,)
+        flown_s = self.ticks_flown * self._tick_s
+        return (Event(Level.ERROR, f"stopped after {flown_s:.1f} s of {self._duration_s:g} s"), begins)
 
     def turn(self, next_tick: int, dones: Sequence[Done], *, stop: bool) -> None:
         """End a tick, in which the agents did this. `stop`: come home."""
         if self.now is Phase.MISSION:
             self.ticks_flown += 1
         phase = self._next(next_tick, dones, stop)
+        self._stopped = stop and phase is Phase.RETURN and not self.complete
         if phase is not self.now:
             self.now, self.began = phase, next_tick
 

@@ -1,0 +1,106 @@
+"""What a review counts is what the mission reported, and hangs together."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from missions.cli import main
+from missions.problems import InputError
+from missions.recording import Recorder
+from missions.recording.playback import play_back
+from missions.review.calls import Fate
+from missions.review.reading import read
+from tests.missions.review.conftest import Flown
+from tests.missions.toy_observations import toy_observations, toy_scene
+
+
+def _lasting(report: dict[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in report.items() if key not in ("timing", "recording")}
+
+
+def test_the_report_is_counted_again_from_the_recording_alone(flown: Flown, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["review", str(flown.recording), "--json"]) == 0
+    counted = json.loads(capsys.readouterr().out)
+    assert _lasting(counted) == _lasting(flown.report)
+    assert counted["timing"]["tick_late_s_max"] == flown.report["timing"]["tick_late_s_max"]
+    assert counted["help"]["calls"] > 5
+    assert counted["events"]["target_loss"] > 0
+    assert counted["radio"]["lost"] > 0
+
+
+def test_every_call_and_loss_of_the_report_has_its_story(flown: Flown) -> None:
+    review = flown.review
+    assert len(review.calls) == flown.report["help"]["calls"]
+    assert len(review.losses) == flown.report["events"]["target_loss"]
+    for call in review.calls:
+        assert call.began_s <= call.ended_s
+        assert (call.owner is None) == (call.fate in (Fate.LOST, Fate.OPEN))
+        assert (call.owner in call.helpers) == (call.fate is Fate.HANDED_OVER) or call.fate is Fate.KEPT
+    for loss in review.losses:
+        assert all(chance.leave_by_s <= loss.time_s and chance.agent not in loss.owners for chance in loss.chances)
+
+
+def test_the_timeline_is_in_order_and_tells_every_loss(flown: Flown) -> None:
+    times = [line.time_s for line in flown.review.lines]
+    assert times == sorted(times)
+    assert sum("any more" in line.text for line in flown.review.lines) == len(flown.review.losses)
+
+
+def test_observations_come_back_as_they_were_made(tmp_path: Path) -> None:
+    scene = toy_scene()
+    made = list(toy_observations(scene, ticks=400))
+    with Recorder(tmp_path / "toy.rrd", scene=scene) as recorder:
+        for seen in made:
+            recorder.observe(seen)
+    read_back = play_back(tmp_path / "toy.rrd").observations
+    for old, new in zip(made, read_back, strict=True):
+        assert (old.tick, old.phase, old.mission_tick, old.totals) == (
+            new.tick,
+            new.phase,
+            new.mission_tick,
+            new.totals,
+        )
+        assert (old.tick_late_s, old.events) == (new.tick_late_s, new.events)
+        assert old.time_s == pytest.approx(new.time_s)
+        for was, now in zip(old.statuses, new.statuses, strict=True):
+            said = (was.activity, was.tags, was.helping, was.flight_mode, was.events)
+            assert said == (now.activity, now.tags, now.helping, now.flight_mode, now.events)
+            assert [(call.target, call.urgent) for call in was.calls] == [
+                (call.target, call.urgent) for call in now.calls
+            ]
+        for place, again in zip(old.truths, new.truths, strict=True):
+            assert again.position_m == pytest.approx(place.position_m, abs=1 / 128 + 1e-6)
+        for target, same in zip(old.targets, new.targets, strict=True):
+            assert (target.present, target.seen and target.present) == (same.present, same.seen)
+            if target.present:
+                assert (same.x_m, same.y_m) == pytest.approx((target.x_m, target.y_m), abs=1 / 128 + 1e-6)
+
+
+def test_a_torn_recording_is_repaired_to_be_read_and_left_as_it_is(tmp_path: Path) -> None:
+    scene, torn = toy_scene(), tmp_path / "torn.rrd.part"
+    with Recorder(tmp_path / "whole.rrd", scene=scene) as recorder:
+        for seen in toy_observations(scene, ticks=400):
+            recorder.observe(seen)
+        # As if it were killed now, in the middle of a message.
+        torn.write_bytes((tmp_path / "whole.rrd.part").read_bytes()[:-100])
+    before = torn.read_bytes()
+    playback = play_back(torn)
+    assert playback.torn
+    # What waits in the queue is five seconds at most; of what was drawn, a second is lost.
+    assert 400 - 50 - 2 * 10 < playback.observations[-1].tick < 400
+    assert playback.ticks_missing == 0
+    assert torn.read_bytes() == before
+
+
+@pytest.mark.parametrize("content", [b"", b"no recording", b"RRF2" + bytes(200)])
+def test_what_is_no_recording_is_bad_input(tmp_path: Path, content: bytes) -> None:
+    path = tmp_path / "odd.rrd"
+    path.write_bytes(content)
+    with pytest.raises(InputError, match="got no recording"):
+        read(path)
+    with pytest.raises(InputError, match="got no file"):
+        read(tmp_path / "missing.rrd")
