@@ -169,7 +169,7 @@ def test_what_a_mission_may_be_can_be_flown(changes: tuple[str, ...]) -> None:
     with open_local_bus() as bus:
         flight = Flight(mission, bus)
         flight.run(pace=Lockstep(), observers=[metrics], stop=lambda: flight.clock_s > 30.0)
-    assert metrics.faults == []
+    assert [fault.what for fault in metrics.faults if not fault.what.startswith("stopped after")] == []
 
 
 def test_an_agent_that_lands_in_the_mission_lets_go_of_its_targets_and_falls_silent() -> None:
