@@ -31,6 +31,19 @@ def whole_bytes(data: bytes | bytearray) -> int:
     return len(data)
 
 
+def frames(data: bytes) -> tuple[list[bytes], bytes]:
+    """The whole frames in a stretch of a stream, and a frame begun at its end; what lies between frames is left out."""
+    found: list[bytes] = []
+    position = 0
+    while (start := data.find(START, position)) >= 0:
+        size = frame_bytes(data, start)
+        if size is None or start + size > len(data):
+            return found, data[start:]
+        found.append(data[start : start + size])
+        position = start + size
+    return found, b""
+
+
 def datagrams(data: bytes, *, at_most: int) -> list[bytes]:
     """Whole frames in as few pieces as fit `at_most` bytes each, in order; what is no frame goes with its neighbor.
 

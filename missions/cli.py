@@ -72,6 +72,7 @@ def launch(options: argparse.Namespace) -> int:
     settings = LaunchOptions(
         speed=speed,
         record=options.record,
+        tlog=options.tlog,
         report=options.report,
         view=options.view,
         gcs=tuple(options.gcs),
@@ -208,6 +209,7 @@ _LAUNCH = """examples:
   swarm launch quickstart --record out/q.rrd --report out/q.json
   swarm launch narrow --seed 7 --duration 60 --speed 1 --view
   swarm launch quickstart --speed 1 --gcs udpout:127.0.0.1:14550      watched by a ground station
+  swarm launch narrow --tlog out/logs; mavlogdump.py out/logs/agent-0.tlog
   swarm launch my.yaml --set radio.loss=0.3 --set 'targets={motion: static, count: 4}'"""
 
 _CHECK = """examples:
@@ -270,6 +272,9 @@ def _parser() -> argparse.ArgumentParser:
         help="X times real time, or max: as fast as it goes (default; with vehicle.links: 1)",
     )
     flying.add_argument("--record", type=_new_file, metavar="F.rrd", help="write a recording for rerun")
+    flying.add_argument(
+        "--tlog", type=Path, metavar="DIR", help="write a telemetry log of each link, for MAVProxy and mavlogdump"
+    )
     flying.add_argument("--report", type=_report, metavar="F.json", help="write the report; - is standard output")
     flying.add_argument(
         "--gcs",

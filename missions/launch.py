@@ -28,6 +28,7 @@ from missions.plan import coverage_floor
 from missions.problems import InputError, OutputError
 from missions.progress import ProgressBar
 from missions.report import PACKAGES, as_json, as_table, make_report, versions
+from missions.tlog import tlogs
 from vehicle_sim.autopilot import SimulatedVehicle
 
 if TYPE_CHECKING:
@@ -94,6 +95,8 @@ def _fly(flight: Flight, metrics: Metrics, request: StopRequest, console: Consol
             stack.enter_context(open_ground_link(url, _simulated(flight), option="--gcs", key=options.gcs_key))
             for url in options.gcs
         ]
+        if options.tlog is not None:
+            stack.enter_context(tlogs(options.tlog, flight.crew, began_unix_s=time.time()))
         observers: list[Observer] = [*links, metrics]
         if mission.in_real_time:
             observers.append(EventLog(console))

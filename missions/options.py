@@ -18,6 +18,7 @@ class LaunchOptions:
         speed: mission seconds per second of wall time; `inf` is as fast as the computer can.
         record: the rerun recording to write, if any.
         report: the JSON report to write, if any; `-` is standard output.
+        tlog: the folder for a telemetry log of each link, if any.
         view: whether to open a viewer.
         gcs: URLs of ports for ground stations, the whole swarm on each. gcs_key: what they sign with, if they must.
     """
@@ -25,6 +26,7 @@ class LaunchOptions:
     speed: float = inf
     record: Path | None = None
     report: str | None = None
+    tlog: Path | None = None
     view: bool = False
     gcs: tuple[str, ...] = ()
     gcs_key: bytes | None = None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from types import MappingProxyType
 
 from comms.frames import Vec3, swap_enu_ned
@@ -21,12 +21,18 @@ from swarm_agent.agent import Agent, Order
 from swarm_agent.autopilot import Phase as PilotPhase
 from vehicle_sim.autopilot import SimulatedVehicle
 
+# Told at every tick: the mission clock, what the vehicle has said by now, what the agent says to it.
+Tap = Callable[[float, bytes, bytes], None]
+
 
 class AgentSide:
     """Agent `uid` with all that is its own, one `Cue` in and one `Done` out a tick.
 
     Args:
         pad_m: where its vehicle stands at first, ENU meters: what its truth counts from.
+
+    Attributes:
+        tap: hears what passes on the link to the vehicle, if anybody wants to.
     """
 
     def __init__(self, agent: Agent, vehicle: Vehicle, radio: Radio, *, pad_m: Vec3, tick_s: float) -> None:
@@ -37,6 +43,7 @@ class AgentSide:
         self._pad_m = pad_m
         self._tick_s = tick_s
         self._telemetry = b""
+        self.tap: Tap | None = None
 
     def hello(self) -> Done:
         """It is there, and stands where it stands."""
@@ -54,6 +61,8 @@ class AgentSide:
             raise RuntimeError(f"lockstep broken at {now_s:.1f} s, agent {self.uid}: {got}")
         order = Order(mission_tick=cue.mission_tick, come_home=cue.come_home, explain=cue.explain)
         output = self.agent.tick(now_s, order, cue.sightings, self.radio.drain(now_s), self._telemetry)
+        if self.tap is not None:
+            self.tap(now_s, self._telemetry, output.wire)
         if output.frame is not None:
             self.radio.send(output.frame)
         self._telemetry = self.vehicle.tick(after_s, output.wire)
