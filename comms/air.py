@@ -38,7 +38,8 @@ class Air:
     """The medium of one mission. Frames gather in `tx/*`; `carry` moves them once a tick.
 
     Attributes:
-        count: totals. links: pairs (a, b), a < b, that heard each other in the last tick. due: how many frames the last
+        count: totals. links: pairs (a, b), a < b, that heard each other in the last tick.
+        broken: pairs (from, to) of the last tick's frames that were lost within range. due: how many frames the last
             `carry` sent to each radio, by uid.
     """
 
@@ -54,6 +55,7 @@ class Air:
         self._puts: dict[tuple[int, int], Put] = {}  # by (dst, src), declared when first needed
         self.count = AirCount()
         self.links: tuple[tuple[int, int], ...] = ()
+        self.broken: tuple[tuple[int, int], ...] = ()
         self.due = [0] * n_agents
         bus.subscribe(keys.every_tx, self._hear)
 
@@ -71,6 +73,7 @@ class Air:
         """
         model, count = self._model, self.count
         due = tick + self._delay_ticks
+        broken: list[tuple[int, int]] = []
         self._spoken.sort(key=lambda spoken: spoken[0])
         for src, payload in self._spoken:
             count.sent += 1
@@ -82,10 +85,12 @@ class Air:
                 if not link.in_range(other_x - x, other_y - y, model.range_m):
                     count.out_of_range += 1
                 elif not link.survives(self._seed, tick, src, dst, model.loss):
-                    count.lost += 1
+                    broken.append((src, dst))
                 else:
                     self._under_way.append((due, dst, src, payload))
         self._spoken.clear()
+        count.lost += len(broken)
+        self.broken = tuple(broken)
         self.due = [0] * self._n_agents
         links = set()
         while self._under_way and self._under_way[0][0] <= tick + 1:

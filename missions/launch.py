@@ -7,7 +7,7 @@ import sys
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
-from math import isinf
+from math import acos, isinf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +16,7 @@ from rich.console import Console
 from comms.clock import Lockstep, Pace, RealTime
 from comms.session import open_local_bus
 from comms.transport import Transport, TransportError, transport_of
+from missions.compose import cos_half_opening
 from missions.flight import Flight
 from missions.ground_link import open_ground_link
 from missions.load import dump_mission
@@ -191,6 +192,7 @@ def recorder_of(mission: Mission, n_targets: int, options: LaunchOptions) -> Rec
         n_agents=mission.agents.count,
         n_targets=n_targets,
         sensing_ranges_m=mission.agents.sensing_ranges_m,
+        half_opening_rad=acos(max(-1.0, cos_half_opening(mission))),
         home=mission.home.place,
         ceiling_m=max(mission.agents.altitude.of_agent(uid) for uid in range(mission.agents.count)),
         coverage_floor=coverage_floor(mission),

@@ -74,6 +74,7 @@ class Observation:
         mission_tick: ticks since MISSION began; None outside MISSION.
         statuses, truths: one per agent, by uid. targets: one per target, by id.
         links: pairs (a, b), a < b, of agents that heard each other in this tick (either direction).
+        broken: pairs (from, to) of agents of which one did not hear the other, though in range.
         coverage: share of the present targets seen now; None outside MISSION. coverage_mean: eq. 1 over n, so far.
         utilization: coverage_mean x n / m.
         tick_late_s: how late this tick began against the wall clock; 0 in lockstep.
@@ -89,6 +90,7 @@ class Observation:
     targets: tuple[TargetTruth, ...]
     mission_tick: int | None = None
     links: tuple[tuple[int, int], ...] = ()
+    broken: tuple[tuple[int, int], ...] = ()
     coverage: float | None = None
     coverage_mean: float | None = None
     utilization: float | None = None

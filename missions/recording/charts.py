@@ -41,11 +41,15 @@ class Metrics:
             if before is None or seen.time_s <= before.time_s:
                 continue
             span_s = seen.time_s - before.time_s
-            now, then = seen.totals, before.totals
-            sent, delivered = now.radio_sent - then.radio_sent, now.radio_delivered - then.radio_delivered
-            rates.append((sent / span_s, delivered / span_s))
+            rates.append([(now - then) / span_s for now, then in zip(_frames(seen), _frames(before), strict=True)])
             since.append(seen)
-        yield Rows("/metrics/net", Block(self._scene, since), _vectors(rates, 2))
+        yield Rows("/metrics/net", Block(self._scene, since), _vectors(rates, len(_frames(block.observations[0]))))
+
+
+def _frames(seen: Observation) -> tuple[int, ...]:
+    """Totals of radio frames, in the order of their lines."""
+    totals = seen.totals
+    return totals.radio_sent, totals.radio_delivered, totals.radio_lost, totals.radio_out_of_range
 
 
 class Telemetry:
@@ -65,7 +69,7 @@ class Telemetry:
         yield Rows("/telemetry/speed", block, _vectors(block.speeds_m_s, self._n))
 
 
-def _vectors(rows: Sequence[tuple[float | None, ...]] | Floats, width: int) -> rr.ComponentColumnList:
+def _vectors(rows: Sequence[Sequence[float | None]] | Floats, width: int) -> rr.ComponentColumnList:
     """Rows of `width` scalars; None becomes nan."""
     values = np.asarray(rows, dtype=np.float64).reshape(-1)
     return rr.Scalars.columns(scalars=values).partition([width] * (len(values) // width))

@@ -32,11 +32,12 @@ class Layer(Protocol):
 
 
 def pieces(lines: npt.ArrayLike, colors: Colors | None, counts: Ints) -> rr.ComponentColumnList:
-    """Straight pieces (S, 2, 3) as columns of LineStrips3D; `counts` says how many belong to each row."""
-    points = np.asarray(lines, dtype=np.float32).reshape(-1, 3)
-    offsets = pa.array(np.arange(0, len(points) + 1, 2, dtype=np.int32))
+    """Lines (..., P, 3) as columns of LineStrips3D; `counts` says how many belong to each row."""
+    points = np.asarray(lines, dtype=np.float32)
+    offsets = pa.array(np.arange(0, points[..., 0].size + 1, points.shape[-2], dtype=np.int32))
     arrow_type = rr.components.LineStrip3DBatch._ARROW_DATATYPE
-    strips = pa.ListArray.from_arrays(offsets, rr.encodings.Vec3DBatch(points).as_arrow_array(), type=arrow_type)
+    vectors = rr.encodings.Vec3DBatch(points.reshape(-1, 3)).as_arrow_array()
+    strips = pa.ListArray.from_arrays(offsets, vectors, type=arrow_type)
     columns: rr.ComponentColumnList = rr.LineStrips3D.columns(strips=strips, colors=colors)
     return columns.partition(counts)
 
@@ -46,7 +47,7 @@ def rings(centers: Floats, radii_m: Floats | float, colors: Colors, counts: Ints
 
     The radius is repeated for each ring: were it static, a row without centers would still show one, at the origin.
     """
-    radii = np.broadcast_to(np.float32(radii_m), len(centers))
+    radii = np.full(len(centers), radii_m, dtype=np.float32)
     return rr.Cylinders3D.columns(centers=centers, radii=radii, colors=colors).partition(counts)
 
 

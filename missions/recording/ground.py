@@ -14,6 +14,7 @@ from missions.recording import palette, shapes
 from missions.recording.block import Block, Colors, Floats, Mask
 from missions.recording.columns import Rows, doing, ramp
 from missions.recording.scene import Scene
+from missions.recording.sight import Sight
 
 _BLIND = frozenset({Activity.PREPARING, Activity.LANDED, Activity.LOST})
 _PAINT_STEP_S = 1.0
@@ -35,25 +36,27 @@ class SeenGround:
         old = ramp(palette.GROUND, palette.GROUND_REMEMBERED, _REMEMBERED + 1)
         new = ramp(palette.GROUND_REMEMBERED, palette.GROUND_FRESH, _FRESH - _REMEMBERED + 1)
         self._ramp = np.concatenate((old, new[1:]))
-        self._squared_m2 = np.square(np.array(scene.sensing_ranges_m, dtype=np.float32))
+        self._sight = Sight(scene)
         self._bare = True
 
     def rows(self, block: Block) -> Iterator[Rows]:
         """The ground's colors, once a second, and at the very first tick."""
+        facings = self._sight.facings(block)
         shown = block.every(_PAINT_STEP_S)
         if self._bare and block.ticks[0] not in shown.ticks:
             shown = Block(self._scene, [block.observations[0], *shown.observations])
         self._bare = False
         looking = doing(shown, lambda activity: activity not in _BLIND)
-        colors = list(map(self._paint, shown.times_ns / 1e9, shown.positions_m, looking))
+        facing = [facings[tick] for tick in shown.ticks.tolist()]
+        colors = list(map(self._paint, shown.times_ns / 1e9, shown.positions_m, facing, looking))
         columns = rr.Mesh3D.columns(vertex_colors=np.array(colors, dtype=np.uint32).ravel())
         yield Rows("/world/seen", shown, columns.partition([len(self._vertices)] * len(shown)))
 
-    def _paint(self, now_s: float, positions_m: Floats, looking: Mask) -> Colors:
+    def _paint(self, now_s: float, positions_m: Floats, facing: Floats, looking: Mask) -> Colors:
         """The color of every vertex, after agents at (N, 3) have looked around."""
         step = floor(now_s / _FADE_STEP_S)
         away = self._vertices[:, None, :] - positions_m[None, looking, :2]
-        within = (np.square(away).sum(axis=2) <= self._squared_m2[looking]).any(axis=1)
+        within = self._sight.covers(away, facing[looking], looking).any(axis=1)
         self._seen_at_step[within] = step
         shade = np.maximum(_FRESH - (step - self._seen_at_step), _REMEMBERED)
         shade[self._seen_at_step == _NEVER] = 0

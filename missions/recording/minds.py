@@ -7,14 +7,15 @@ from math import hypot
 from typing import NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 import rerun as rr
 
 from comms.knowledge import Belief, Knowledge
 from comms.status import Activity, AgentStatus
 from missions.observation import Observation, TargetTruth
 from missions.recording import palette
-from missions.recording.block import Block, stored
-from missions.recording.columns import Rows, faded, pieces, rings
+from missions.recording.block import Block, Floats, stored
+from missions.recording.columns import Rows, faded, on_ground, pieces, rings
 from missions.recording.scene import Scene
 
 # An arrow as long as the way of so many seconds.
@@ -102,7 +103,7 @@ def _errors(told: Sequence[_Told]) -> rr.ComponentColumnList:
         ends += [place for belief, truth in pairs for place in (belief.place_m, (truth.x_m, truth.y_m))]
         colors += [_color(one.status, belief) for belief, _ in pairs]
         counts.append(len(pairs))
-    return pieces(_flat(ends), np.array(colors, dtype=np.uint32), np.array(counts, dtype=np.int64))
+    return pieces(_flat(ends).reshape(-1, 2, 3), np.array(colors, dtype=np.uint32), np.array(counts, dtype=np.int64))
 
 
 def _wanted(told: Sequence[_Told]) -> rr.ComponentColumnList:
@@ -122,9 +123,8 @@ def _sight(told: Sequence[_Told], range_m: float) -> rr.ComponentColumnList:
     return rings(_flat([one.me for one in told]), range_m, faded(colors, _SIGHT_ALPHA), counts)
 
 
-def _flat(places: Sequence[tuple[float, float]] | np.ndarray) -> np.ndarray:
-    flat = stored(np.asarray(places, dtype=np.float64).reshape(-1, 2))
-    return np.concatenate((flat, np.zeros_like(flat[:, :1])), axis=1)
+def _flat(places: npt.ArrayLike) -> Floats:
+    return on_ground(stored(np.asarray(places, dtype=np.float64).reshape(-1, 2)))
 
 
 def _color(status: AgentStatus, belief: Belief) -> int:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 import rerun as rr
@@ -18,7 +18,9 @@ _TRACK_ALPHA = 150
 
 
 class Relations:
-    """Draws a line from each agent to its tags and its mates, and an arrow from each helper to where it is needed."""
+    """Draws a line from each agent to its tags and its mates, a red one where a frame was lost, and an arrow from each
+    helper to where it is needed.
+    """
 
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
@@ -27,7 +29,8 @@ class Relations:
         """Lines and arrows; empty rows where there are none, or the last ones would stay."""
         block = block.every(LINE_STEP_S)
         yield Rows("/world/tracks", block, self._tracks(block))
-        yield Rows("/world/links", block, self._links(block))
+        yield Rows("/world/links", block, self._between(block, [seen.links for seen in block.observations]))
+        yield Rows("/world/broken", block, self._between(block, [seen.broken for seen in block.observations]))
         yield Rows("/world/help", block, self._help(block))
 
     def _tracks(self, block: Block) -> rr.ComponentColumnList:
@@ -42,8 +45,9 @@ class Relations:
         counts = np.bincount(row, minlength=len(block))
         return pieces(lines, faded(block.colors[row, agent], _TRACK_ALPHA), counts)
 
-    def _links(self, block: Block) -> rr.ComponentColumnList:
-        ends = [(row, a, b) for row, seen in enumerate(block.observations) for a, b in seen.links]
+    def _between(self, block: Block, pairs: Sequence[Sequence[tuple[int, int]]]) -> rr.ComponentColumnList:
+        """A line for each pair of agents in each tick."""
+        ends = [(row, a, b) for row, some in enumerate(pairs) for a, b in some]
         row, a, b = np.array(ends, dtype=np.intp).reshape(-1, 3).T
         lines = np.stack((block.positions_m[row, a], block.positions_m[row, b]), axis=1)
         return pieces(lines, None, np.bincount(row, minlength=len(block)))

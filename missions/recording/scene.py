@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import uuid
 from dataclasses import asdict, dataclass
-from math import hypot
+from math import hypot, pi
 
 from comms.arena import Arena
 from comms.frames import GeoPoint
@@ -22,6 +22,7 @@ class Scene:
         seed, policy, versions: stored as properties, beside the mission. versions: name -> version (or git hash).
         tick_s: mission time between two observations.
         sensing_ranges_m: how far each agent sees, on the ground, by uid.
+        half_opening_rad: half the angle that agents see into, about their course; pi: all around.
         home: where ENU (0, 0, 0) is on the globe.
         ceiling_m: how high agents fly, so that the first view shows all of them.
         coverage_floor: coverage of agents placed at random and standing still, drawn as a dim line; None when unknown.
@@ -38,6 +39,7 @@ class Scene:
     n_targets: int
     sensing_ranges_m: tuple[float, ...]
     home: GeoPoint
+    half_opening_rad: float = pi
     ceiling_m: float = 0.0
     coverage_floor: float | None = None
 
@@ -45,6 +47,11 @@ class Scene:
     def ticks_per_s(self) -> int:
         """Ticks in one second of mission time, at least 1."""
         return max(1, round(1.0 / self.tick_s))
+
+    @property
+    def sees_all_around(self) -> bool:
+        """Whether what agents see is a disc, and not a sector."""
+        return self.half_opening_rad >= pi
 
     @property
     def size_m(self) -> float:

@@ -103,14 +103,17 @@ def _set_agents(tape: Tape, scene: Scene) -> None:
     tape.log_static("/world/agents/heading", rr.Arrows3D.from_fields(radii=[sizes.arrow_m / 6.5]))
     tape.log_static("/world/agents/stem", rr.LineStrips3D.from_fields(radii=_on_screen(0.6)))
     tape.log_static("/world/agents/trail", rr.LineStrips3D.from_fields(radii=_on_screen(1.2)))
-    tape.log_static(
-        "/world/agents/sensing",
-        rr.Cylinders3D.from_fields(
-            lengths=[0.002 * sizes.unit_m],
-            line_radii=_on_screen(1.1),
-            fill_mode=rr.components.FillMode.TransparentFillMajorWireframe,
-        ),
-    )
+    if scene.sees_all_around:
+        tape.log_static(
+            "/world/agents/sensing", _ring(sizes, rr.components.FillMode.TransparentFillMajorWireframe, 1.1)
+        )
+    else:
+        tape.log_static("/world/agents/sensing", rr.LineStrips3D.from_fields(radii=_on_screen(1.1)))
+
+
+def _ring(sizes: Sizes, fill: rr.components.FillMode, width: float) -> rr.Cylinders3D:
+    """What flat rings on the ground have in common."""
+    return rr.Cylinders3D.from_fields(lengths=[0.002 * sizes.unit_m], line_radii=_on_screen(width), fill_mode=fill)
 
 
 def _set_targets(tape: Tape, scene: Scene) -> None:
@@ -121,19 +124,13 @@ def _set_targets(tape: Tape, scene: Scene) -> None:
         rr.Points3D.from_fields(radii=_on_screen(4.0), show_labels=named),
     )
     for path, width in (("tags", 1.8), ("calls", 1.4)):
-        tape.log_static(
-            f"/world/targets/{path}",
-            rr.Cylinders3D.from_fields(
-                lengths=[0.002 * sizes.unit_m],
-                line_radii=_on_screen(width),
-                fill_mode=rr.components.FillMode.MajorWireframe,
-            ),
-        )
+        tape.log_static(f"/world/targets/{path}", _ring(sizes, rr.components.FillMode.MajorWireframe, width))
 
 
 def _set_lines(tape: Tape, scene: Scene) -> None:
     tape.log_static("/world/tracks", rr.LineStrips3D.from_fields(radii=_on_screen(0.8)))
     tape.log_static("/world/links", rr.LineStrips3D.from_fields(radii=_on_screen(0.5), colors=[palette.LINK]))
+    tape.log_static("/world/broken", rr.LineStrips3D.from_fields(radii=_on_screen(0.9), colors=[palette.BROKEN]))
     tape.log_static("/world/help", rr.Arrows3D.from_fields(radii=_on_screen(2.0), show_labels=True))
 
 
@@ -144,11 +141,7 @@ def _set_minds(tape: Tape, scene: Scene) -> None:
             rr.Points3D.from_fields(radii=_on_screen(4.0), show_labels=True),
             rr.LineStrips3D.from_fields(radii=_on_screen(0.8)),
             rr.Arrows3D.from_fields(radii=_on_screen(1.4)),
-            rr.Cylinders3D.from_fields(
-                lengths=[0.002 * Sizes.of(scene).unit_m],
-                line_radii=_on_screen(1.1),
-                fill_mode=rr.components.FillMode.TransparentFillMajorWireframe,
-            ),
+            _ring(Sizes.of(scene), rr.components.FillMode.TransparentFillMajorWireframe, 1.1),
             rr.TextDocument.from_fields(media_type=rr.MediaType.MARKDOWN),
         )
 
@@ -181,6 +174,8 @@ def _chart_styles(scene: Scene) -> dict[str, list[tuple[str, int, float]]]:
         "/metrics/net": [
             ("frames sent /s", palette.RADIO_SENT, 1.4),
             ("frames delivered /s", palette.RADIO_DELIVERED, 1.4),
+            ("frames lost /s", palette.RADIO_LOST, 1.4),
+            ("frames out of range /s", palette.RADIO_OUT_OF_RANGE, 1.0),
         ],
         "/telemetry/battery": agents,
         "/telemetry/altitude": agents,

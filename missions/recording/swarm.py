@@ -12,6 +12,7 @@ from missions.recording import shapes
 from missions.recording.block import LINE_STEP_S, Block, Floats
 from missions.recording.columns import Rows, doing, faded, pieces, rings
 from missions.recording.scene import Scene
+from missions.recording.sight import Sight
 from missions.recording.stage import Sizes
 
 GROUNDED = frozenset({Activity.PREPARING, Activity.LANDED})
@@ -27,6 +28,7 @@ class Swarm:
 
     def __init__(self, scene: Scene) -> None:
         self._n = scene.n_agents
+        self._sight = Sight(scene)
         self._ranges_m = np.array(scene.sensing_ranges_m, dtype=np.float32)
         self._arrow_m = np.float32(Sizes.of(scene).arrow_m)
         self._trail_end_m: Floats | None = None
@@ -34,7 +36,7 @@ class Swarm:
     def rows(self, block: Block) -> Iterator[Rows]:
         """Bodies at every tick, stems and sensing discs less often, a piece of trail twice a second."""
         yield from self._bodies(block)
-        yield from self._footprints(block.every(LINE_STEP_S))
+        yield from self._footprints(block)
         yield from self._trail(block.every(_TRAIL_STEP_S))
 
     def _bodies(self, block: Block) -> Iterator[Rows]:
@@ -47,13 +49,20 @@ class Swarm:
         yield Rows("/world/agents/heading", block, arrows.partition(each))
 
     def _footprints(self, block: Block) -> Iterator[Rows]:
+        facings = self._sight.facings(block)
+        block = block.every(LINE_STEP_S)
         flying = doing(block, lambda activity: activity not in GROUNDED)
         here, colors, counts = block.positions_m[flying], block.colors[flying], flying.sum(axis=1)
         below = here * _FLAT
         stems = np.stack((here, below), axis=1)
         yield Rows("/world/agents/stem", block, pieces(stems, faded(colors, _STEM_ALPHA), counts))
-        ranges = np.broadcast_to(self._ranges_m, flying.shape)[flying]
-        yield Rows("/world/agents/sensing", block, rings(below, ranges, faded(colors, _DISC_ALPHA), counts))
+        agents = np.nonzero(flying)[1]
+        if block.scene.sees_all_around:
+            seen = rings(below, self._ranges_m[agents], faded(colors, _DISC_ALPHA), counts)
+        else:
+            facing = np.array([facings[tick] for tick in block.ticks.tolist()]).reshape(*flying.shape, 2)[flying]
+            seen = pieces(self._sight.outlines(below, facing, agents), colors, counts)
+        yield Rows("/world/agents/sensing", block, seen)
 
     def _trail(self, block: Block) -> Iterator[Rows]:
         if not len(block):

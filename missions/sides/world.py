@@ -139,6 +139,7 @@ class WorldSide:
                 for target, place in enumerate(targets)
             ),
             links=self.air.links,
+            broken=self.air.broken,
             coverage=self.coverage.now if on_duty else None,
             coverage_mean=mean,
             utilization=None if mean is None else mean * len(targets) / len(dones),

@@ -3,7 +3,7 @@
 with viewer("flight.rrd", size=(1600, 900)) as seen:
     seen.turn_to("Knowledge", "A4")
     seen.save("a4.png", at_s=151.0)
-    assert not seen.complaints()
+    assert not seen.complaints
 
 Needs a Vulkan driver: Debian's mesa-vulkan-drivers and libvulkan1.
 """
@@ -31,10 +31,15 @@ _LOOK_EVERY_S = 0.3
 
 
 class Viewer:
-    """A running viewer with one recording open."""
+    """A running viewer with one recording open.
+
+    Attributes:
+        complaints: the viewer's own reports of errors, of all that was saved; the values say nothing.
+    """
 
     def __init__(self, client: ViewerClient) -> None:
         self._client = client
+        self.complaints: dict[str, None] = {}
 
     def turn_to(self, *tabs: str) -> None:
         """Bring a tab to the front, and a tab in it, by their names.
@@ -59,11 +64,13 @@ class Viewer:
             before = picture
             time.sleep(_LOOK_EVERY_S)
         Path(path).write_bytes(picture)
+        self._complain()
 
-    def complaints(self) -> list[str]:
-        """What the viewer has to report of its views, and the errors in its log."""
+    def _complain(self) -> None:
+        """Note what the viewer has to report of the views it shows now, and the errors in its log."""
         views = [f"{view.name}: {report}" for view in self._client.get_state().views for report in view.reports]
-        return views + [str(entry) for entry in self._client.get_logs() if "error" in str(entry.level).lower()]
+        errors = [str(entry) for entry in self._client.get_logs() if "error" in str(entry.level).lower()]
+        self.complaints.update(dict.fromkeys([*views, *errors]))
 
     def open(self, recording: Path | str) -> None:
         """Show a recording, whole."""
