@@ -7,7 +7,7 @@ from comms.status import Event, Level
 
 CHUNK_CHARACTERS = 50  # a chunk that is shorter is the last one of its text
 MAX_CHUNKS = 8
-REFUSALS = ("PreArm:", "Arm:")
+REFUSALS = ("PreArm:", "Arm:", "Arming denied:", "Preflight Fail:")
 
 # MAV_SEVERITY 0 (emergency) to 7 (debug).
 LEVELS = (Level.ERROR,) * 4 + (Level.WARNING,) + (Level.INFO,) * 3

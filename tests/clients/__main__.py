@@ -33,6 +33,7 @@ class Flight(NamedTuple):
 
     module: str
     url: str = "tcp:{}"
+    flavour: str = "ardupilot"
     boot_s: int = 10
     withheld: tuple[int, str] | None = None
     fails_at: str = ""
@@ -40,10 +41,14 @@ class Flight(NamedTuple):
 
 
 MAVSDK, MAVUTIL, MAVPROXY = "mavsdk_session", "mavutil_session", "mavproxy_session"
+MAVSDK_PX4 = "mavsdk_px4_session"
 FLIGHTS = (
     Flight(MAVSDK, "tcpout://{}"),
     Flight(MAVSDK, "tcpout://{}", withheld=(242, "HOME_POSITION"), fails_at="health_all_ok"),
     Flight(MAVSDK, "tcpout://{}", withheld=(47, "MISSION_ACK"), fails_at="fence"),
+    Flight(MAVSDK_PX4, "tcpout://{}", flavour="px4"),
+    Flight(MAVSDK_PX4, "tcpout://{}", flavour="px4", withheld=(51, "MISSION_REQUEST_INT"), fails_at="fence"),
+    Flight(MAVSDK_PX4, "tcpout://{}", flavour="px4", withheld=(1, "SYS_STATUS"), fails_at="health_all_ok"),
     Flight(MAVUTIL),
     Flight(MAVUTIL, withheld=(77, "COMMAND_ACK"), fails_at="arm refusal"),
     Flight(MAVUTIL, withheld=(22, "PARAM_VALUE"), fails_at="parameters"),
@@ -57,7 +62,7 @@ FLIGHTS = (
 @contextmanager
 def simulated(python: str, flight: Flight) -> Iterator[str]:
     """The URL of a vehicle that has just been switched on, in a process of its own."""
-    arguments = ["sim", "--port", "0", "--boot", str(flight.boot_s), "--speed", SPEED]
+    arguments = ["sim", "--flavour", flight.flavour, "--port", "0", "--boot", str(flight.boot_s), "--speed", SPEED]
     key = Path(mkdtemp()) / "key"
     if flight.passphrase:
         key.touch(mode=0o600)

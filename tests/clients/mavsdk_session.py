@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
+from collections.abc import Callable
 from math import cos, hypot, radians
 
 from mavsdk import ComponentType, Configuration, Mavsdk
@@ -219,6 +220,29 @@ class Session:
             return error.result.name
         raise AssertionError("accepted")
 
+    def steps(self) -> tuple[tuple[str, Callable[[], object]], ...]:
+        """A day out."""
+        return (
+            ("arm refusal", self.refused),
+            ("health_all_ok", self.healthy),
+            ("parameters", self.parameters),
+            ("bad command", self.bad_command),
+            ("fence", self.fence),
+            ("rally", self.rally),
+            ("log list", self.log_list),
+            ("takeoff", self.take_off),
+            ("goto", self.go_to),
+            ("velocity offboard", self.fly_velocity),
+            ("offboard stopped", self.stop),
+            ("position offboard", self.fly_position),
+            ("hold", self.hold),
+            ("mission up", self.upload),
+            ("mission down", self.download),
+            ("mission flown", self.fly_mission),
+            ("return", self.come_home),
+            ("land", self.land),
+        )
+
 
 def main(url: str) -> None:
     sdk = Mavsdk(Configuration.create_with_component_type(ComponentType.GROUND_STATION))
@@ -226,31 +250,12 @@ def main(url: str) -> None:
     fly(sdk)
 
 
-def fly(sdk: Mavsdk) -> None:
+def fly(sdk: Mavsdk, kind: type[Session] = Session) -> None:
     """Every step, in the order of a day out."""
     drones: list[Session] = []
-    step("discovery", lambda: drones.append(Session(sdk)))
+    step("discovery", lambda: drones.append(kind(sdk)))
     drone = drones[0]
-    for name, action in (
-        ("arm refusal", drone.refused),
-        ("health_all_ok", drone.healthy),
-        ("parameters", drone.parameters),
-        ("bad command", drone.bad_command),
-        ("fence", drone.fence),
-        ("rally", drone.rally),
-        ("log list", drone.log_list),
-        ("takeoff", drone.take_off),
-        ("goto", drone.go_to),
-        ("velocity offboard", drone.fly_velocity),
-        ("offboard stopped", drone.stop),
-        ("position offboard", drone.fly_position),
-        ("hold", drone.hold),
-        ("mission up", drone.upload),
-        ("mission down", drone.download),
-        ("mission flown", drone.fly_mission),
-        ("return", drone.come_home),
-        ("land", drone.land),
-    ):
+    for name, action in drone.steps():
         step(name, action)
 
 

@@ -90,7 +90,7 @@ def _many(seed: int, *, frames: int, jobs: int) -> int:
 def _tell(episode: Episode, failure: Failure) -> None:
     """A shrunken episode, message by message."""
     print(f"{failure.trace}\nshrunk to {episode.frames} frames in {len(episode.shots)} ticks:")
-    print(f"  {episode.subject}, {episode.kind}, boots in {episode.boot_s} s")
+    print(f"  {episode.subject}, {episode.flavor}, {episode.kind}, boots in {episode.boot_s} s")
     now_s = 0.0
     for shot in episode.shots:
         now_s += shot.span_s

@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from random import Random
 from typing import Literal, NamedTuple
 
 from comms.mavlink import Endpoint
+from tests.fuzz import px4_sessions, sessions
 from tests.fuzz.hostile import ORDERS, REPORTS, Sender, storm_frame
-from tests.fuzz.sessions import SESSIONS, SYSTEM, take_off, wait
-from vehicle_sim.vehicle import KINDS
+from tests.fuzz.sessions import SYSTEM, Turns, wait
+from vehicle_sim.vehicle import FLAVOR_NAMES, KINDS, FlavorName
 
 Subject = Literal["vehicle", "pilot"]
+Session = Callable[[Random], Turns]
+# How a day of each flavor begins, and what may come then.
+DAYS: dict[FlavorName, tuple[Session, tuple[Session, ...]]] = {
+    "ardupilot": (sessions.take_off, sessions.SESSIONS),
+    "px4": (px4_sessions.take_off, px4_sessions.SESSIONS),
+}
 FRAMES = 400  # roughly, of one episode
 SPANS_S = (0.1,) * 12 + (0.02, 0.25, 0.5, 1.0)
 PILOT_SHARE = 0.2
@@ -28,9 +36,10 @@ class Shot(NamedTuple):
 
 
 class Episode(NamedTuple):
-    """`kind` and `boot_s` are the vehicle's."""
+    """`flavor`, `kind` and `boot_s` are the vehicle's."""
 
     subject: Subject
+    flavor: FlavorName
     kind: str
     boot_s: float
     shots: tuple[Shot, ...]
@@ -44,19 +53,21 @@ def make_episode(seed: int, number: int) -> Episode:
     """Episode `number` of `seed`: the same two numbers make the same episode."""
     rng = Random(f"{seed}/{number}")
     subject: Subject = "pilot" if rng.random() < PILOT_SHARE else "vehicle"
-    boot_s = rng.choice((0.0, 0.5, 2.0))
-    return Episode(subject, rng.choice(KINDS), boot_s, _siege(rng) if subject == "vehicle" else _babel(rng))
+    flavor, boot_s = rng.choice(FLAVOR_NAMES), rng.choice((0.0, 0.5, 2.0))
+    shots = _siege(rng, flavor) if subject == "vehicle" else _babel(rng)
+    return Episode(subject, flavor, rng.choice(KINDS), boot_s, shots)
 
 
-def _siege(rng: Random) -> tuple[Shot, ...]:
+def _siege(rng: Random, flavor: FlavorName) -> tuple[Shot, ...]:
     """A vehicle's day: sessions of a ground station, between storms."""
     station = Endpoint(system_id=255, component_id=190)
     fierce = rng.random()
     shots: list[Shot] = []
-    frames, turns = 0, wait(rng) + take_off(rng)
+    begin, goes_on = DAYS[flavor]
+    frames, turns = 0, wait(rng) + begin(rng)
     while frames < FRAMES:
         if not turns:
-            turns = rng.choice(SESSIONS)(rng)
+            turns = rng.choice(goes_on)(rng)
         for message in turns.pop(0):
             station.send(message)
         session = station.take()

@@ -11,16 +11,19 @@ from pymavlink.dialects.v20 import ardupilotmega as dialect
 
 from vehicle_sim.autopilot.commands import COMMANDS
 from vehicle_sim.autopilot.parameters import TABLE
+from vehicle_sim.autopilot.px4.commands import COMMANDS as PX4_COMMANDS
+from vehicle_sim.autopilot.px4.modes import Mode as Px4Mode
+from vehicle_sim.autopilot.px4.parameters import ROWS
 
 SIZES = {"b": 8, "B": 8, "h": 16, "H": 16, "i": 32, "I": 32, "q": 64, "Q": 64}
 # Numbers that break arithmetic, and numbers that mean something: magic words, message ids, modes, heights.
 BAD_FLOATS = (nan, inf, -inf, 3.4e38, -3.4e38, 1e30, -1e9, 1e9, 1e-42, -0.0, 2.0**31, 2.0**32, -(2.0**31), 1e6)
 GOOD_FLOATS = (0.0, 1.0, -1.0, 2.0, 3.0, 4.0, 6.0, 9.0, 10.0, 17.0, 21.0, 0.5, 30.0, 32.0, 33.0, 100.0, 148.0, 242.0,
                1000.0, 100_000.0, 1_000_000.0, 2989.0, 21196.0, 290876.0, 65535.0)  # fmt: skip
-MODES = (*range(30), 0x00010000, 0x00060000, 0x03040000, 0x04040000, 0x02040000, 0x05040000, 0x06040000)
+MODES = (*range(30), *map(int, Px4Mode))
 MASKS = (0xDC7, 0x9C7, 0x5C7, 0xDF8, 0x9F8, 0xFC0, 0xFFF, 0x000, 0xE07, 0x1C0)
 SMALL = (0, 1, 2, 3, 4, 5, 7, 10, 50, 200, 718, 719, 1000, 1364)
-NAMES = tuple(row.name.encode() for row in TABLE)
+NAMES = tuple(row.name.encode() for row in (*TABLE, *ROWS))
 # Field names whose good values the dialect does not tell.
 KNOWN: dict[str, tuple[int, ...]] = {
     "custom_mode": MODES,
@@ -84,7 +87,7 @@ def _choices(kind: Any, name: str, code: str) -> tuple[int, ...]:
     enum = kind.fieldenums_by_name.get(name)
     listed = tuple(dialect.enums.get(enum, ())) if enum else ()
     if name == "command":
-        listed = (*tuple(COMMANDS) * 8, *listed)
+        listed = (*(*COMMANDS, *PX4_COMMANDS) * 8, *listed)
     near = tuple(value + 1 for value in listed[-2:])
     wanted = (*KNOWN.get(name, ()), *listed, *near, 0, 1, low, high, high // 2)
     return tuple(value for value in wanted if low <= value <= high)

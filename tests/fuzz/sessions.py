@@ -57,7 +57,7 @@ def go_to(rng: Random) -> Turns:
     return [[setpoint], *[[]] * rng.randint(5, 40)]
 
 
-def _items(rng: Random, kind: int, commands: tuple[int, ...]) -> Turns:
+def items(rng: Random, kind: int, commands: tuple[int, ...]) -> Turns:
     """An upload, without waiting to be asked."""
     turns: Turns = [[dialect.MAVLink_mission_count_message(SYSTEM, 1, len(commands), kind)]]
     for seq, command in enumerate(commands):
@@ -72,12 +72,12 @@ def _items(rng: Random, kind: int, commands: tuple[int, ...]) -> Turns:
 def mission(rng: Random) -> Turns:
     commands = (WAYPOINT, TAKEOFF, WAYPOINT, SPEED, WAYPOINT, LOITER_TIME, rng.choice((RTL, LAND)))
     start = [[order(SET_MODE, 1, AUTO)], [order(START)]]
-    return _items(rng, 0, commands) + start + [[] for _ in range(rng.randint(10, 60))]
+    return items(rng, 0, commands) + start + [[] for _ in range(rng.randint(10, 60))]
 
 
 def fence(rng: Random) -> Turns:
     enable = [[_param("FENCE_ENABLE", 1.0)], [order(207, 1)]]
-    return _items(rng, 1, (FENCE_CORNER,) * 4) + enable + _items(rng, 2, (RALLY_POINT,) * 2)
+    return items(rng, 1, (FENCE_CORNER,) * 4) + enable + items(rng, 2, (RALLY_POINT,) * 2)
 
 
 def downloads(rng: Random) -> Turns:

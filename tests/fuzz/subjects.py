@@ -33,7 +33,7 @@ WISHES: tuple[Intent, ...] = (
 
 
 def _vehicle(episode: Episode) -> SimulatedVehicle:
-    config = VehicleConfig(kind=episode.kind, boot_s=episode.boot_s)  # type: ignore[arg-type]
+    config = VehicleConfig(kind=episode.kind, flavor=episode.flavor, boot_s=episode.boot_s)  # type: ignore[arg-type]
     return SimulatedVehicle(config=config, system_id=SYSTEM, home=HOME)
 
 

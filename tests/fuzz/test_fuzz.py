@@ -38,7 +38,17 @@ def test_ten_thousand_frames_break_no_law_and_meet_vehicles_in_every_state() -> 
         if frames >= FRAMES:
             break
     assert frames >= FRAMES
-    for state in ("GUIDED armed up", "RTL armed up", "LAND armed up", "STABILIZE safe down", "pilot flying"):
+    for state in (
+        "GUIDED armed up",
+        "RTL armed up",
+        "LAND armed up",
+        "STABILIZE safe down",
+        "pilot flying",
+        "OFFBOARD armed up",
+        "HOLD armed up",
+        "MISSION armed up",
+        "HOLD safe down",
+    ):
         assert states[state] > 10, states
 
 
@@ -76,7 +86,7 @@ def test_a_failure_is_found_and_shrunk_to_the_frame_that_does_it(monkeypatch: py
         for message in turn:
             station.send(message)
         shots.append(Shot(0.5, (*storm[len(shots) : len(shots) + 1], station.take()), 0.0))
-    episode = Episode("vehicle", "simulated", 2.0, tuple(shots))
+    episode = Episode("vehicle", "ardupilot", "simulated", 2.0, tuple(shots))
     failure = play(episode)
     assert failure is not None
     assert "raises_in_the_air" in failure.what

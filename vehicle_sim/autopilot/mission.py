@@ -86,6 +86,9 @@ class Mission:
         self._running = self.fresh = True
         if self.current < self.first:
             self.advance()
+        elif not is_way(self.items[self.current].command):  # another mission came, and has no way here
+            self.current -= 1
+            self.advance()
 
     def stop(self) -> None:
         """AUTO is left."""

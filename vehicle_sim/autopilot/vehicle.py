@@ -17,10 +17,10 @@ from vehicle_sim.autopilot.flavors import FLAVORS
 from vehicle_sim.autopilot.plans.desk import ROUTES, Desk
 from vehicle_sim.autopilot.request import Request
 from vehicle_sim.autopilot.streams import ALL_GROUPS, Streams
+from vehicle_sim.autopilot.texts import Texts
 from vehicle_sim.vehicle import VehicleConfig, VehicleTruth
 
 HEARTBEAT_ID, MISSION_CURRENT_ID, HOME_ID, ORIGIN_ID = 0, 42, 242, 49
-TEXT_BYTES = 50
 UNSUPPORTED = 3  # MAV_RESULT
 
 
@@ -57,6 +57,7 @@ class SimulatedVehicle:
         )
         self.desk = Desk(self.autopilot.plans, go=self.autopilot.fly_item)
         self.channels: list[Channel] = []
+        self._texts = Texts()
         self._here = self.open_channel()  # where the message came from that is being handled; the first otherwise
         self.autopilot.parameters.on_change(("SR0_",), self._follow_stream_parameters)
         self._handlers: dict[int, Callable[[Any], None]] = {
@@ -140,9 +141,7 @@ class SimulatedVehicle:
     def _speak(self) -> None:
         """Say on every link the texts that wait, home if it is new, and a heartbeat when mode or arming changed."""
         pilot = self.autopilot
-        news = [
-            dialect.MAVLink_statustext_message(severity, text.encode()[:TEXT_BYTES]) for severity, text in pilot.texts
-        ]
+        news = [piece for severity, text in pilot.texts for piece in self._texts.messages(severity, text)]
         pilot.texts.clear()
         if pilot.home_news:
             pilot.home_news = False

@@ -48,8 +48,11 @@ class Keeper:
         store.put(items)
         if store.kind.total:
             self._parameters.tell(store.kind.total, len(items))
-        if store is self.missions:
-            self.mission.changed()
+        if store is not self.missions:
+            return
+        if self.rules.starts_over and self.mission.state is not State.ACTIVE:
+            self.mission.reset()
+        self.mission.changed()
 
 
 def _silence(severity: int, text: str) -> None:

@@ -20,6 +20,7 @@ class PlanRules(NamedTuple):
         strict: an item out of its order ends in an answer that says so; otherwise it is passed by.
         first: the index of the first item that is flown.
         talks: it says each step of a mission.
+        starts_over: a mission that comes while none is flown begins at its beginning.
     """
 
     kinds: tuple[Kind, Kind, Kind]
@@ -29,9 +30,17 @@ class PlanRules(NamedTuple):
     strict: bool
     first: int
     talks: bool
+    starts_over: bool
 
 
 # An upload asks with MISSION_REQUEST, as ArduCopter 4.5 does; item 0 is home.
 ARDUCOPTER_PLANS = PlanRules(
-    KINDS, dialect.MAVLink_mission_request_message, ask_again_s=1.0, give_up_s=8.0, strict=True, first=1, talks=True
+    KINDS,
+    dialect.MAVLink_mission_request_message,
+    ask_again_s=1.0,
+    give_up_s=8.0,
+    strict=True,
+    first=1,
+    talks=True,
+    starts_over=False,
 )

@@ -67,7 +67,7 @@ def _battery(pilot: Commander, mode: Mode) -> Iterator[str]:
 
 def _ground_station(pilot: Commander, mode: Mode) -> Iterator[str]:
     if pilot.parameters["NAV_DLL_ACT"] > 0.0 and not pilot.hears_gcs:
-        yield "No connection to the ground control station"
+        yield "No connection to the GCS"
 
 
 def _geofence(pilot: Commander, mode: Mode) -> Iterator[str]:

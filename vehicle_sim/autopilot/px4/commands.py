@@ -26,7 +26,7 @@ from vehicle_sim.flight import wrap_pi
 
 FORCE_DISARM = 21196.0
 CHANGE_MODE = 1  # the one flag of DO_REPOSITION that PX4 knows, and wants
-HOME_ID, VERSION_ID, PROTOCOL_ID, MISSION_CURRENT_ID = 242, 148, 300, 42
+HOME_ID, VERSION_ID, MISSION_CURRENT_ID = 242, 148, 42
 LONGEST_PERIOD_US = 2**31 - 1
 
 
@@ -275,6 +275,5 @@ COMMANDS: dict[int, Handler] = {
     510: _get_message_interval,  # GET_MESSAGE_INTERVAL
     511: _set_message_interval,  # SET_MESSAGE_INTERVAL
     512: _request_message,  # REQUEST_MESSAGE
-    519: _tell(PROTOCOL_ID),  # REQUEST_PROTOCOL_VERSION
     520: _tell(VERSION_ID),  # REQUEST_AUTOPILOT_CAPABILITIES
 }

@@ -17,17 +17,17 @@ from vehicle_sim.autopilot.px4.telemetry import BUILDERS
 
 AUTOPILOT, EVERY_COMPONENT = 1, 0
 DO_SET_MODE = 176
-ASKED_OF_ALL = frozenset({512, 519})  # REQUEST_MESSAGE and REQUEST_PROTOCOL_VERSION: of any component, and of everybody
+REQUEST_MESSAGE = 512  # the one command for everybody, and for any component
 COMMANDS_TAKEN = frozenset({dialect.MAVLINK_MSG_ID_COMMAND_INT, dialect.MAVLINK_MSG_ID_COMMAND_LONG})
 
 
 def addressed(message: Any, system_id: int) -> bool:
-    """For this system, and for the autopilot or all components; few commands are for everybody."""
+    """For this system, and for the autopilot or all components; hardly a command is for everybody."""
     system = getattr(message, "target_system", None)
     if system is None:
         return True
     is_command = message.get_msgId() in COMMANDS_TAKEN
-    if is_command and message.command in ASKED_OF_ALL:
+    if is_command and message.command == REQUEST_MESSAGE:
         return system in (0, system_id)
     component = getattr(message, "target_component", EVERY_COMPONENT)
     here = system == system_id or (system == 0 and not is_command)

@@ -27,18 +27,18 @@ def heartbeat(pilot: Commander, message: Any) -> None:
 
 def local_target(pilot: Commander, message: Any) -> None:
     trajectory = local_trajectory(message, yaw_rad=pilot.estimate.yaw_rad)
-    _take(pilot, trajectory, f"SET_POSITION_TARGET_LOCAL_NED: frame {message.coordinate_frame}")
+    _take(pilot, trajectory, message.coordinate_frame)
 
 
 def global_target(pilot: Commander, message: Any) -> None:
     trajectory = global_trajectory(message, origin=pilot.origin, home=pilot.home)
-    _take(pilot, trajectory, f"SET_POSITION_TARGET_GLOBAL_INT: frame {message.coordinate_frame}")
+    _take(pilot, trajectory, message.coordinate_frame)
 
 
-def _take(pilot: Commander, trajectory: Trajectory | None, what: str) -> None:
+def _take(pilot: Commander, trajectory: Trajectory | None, frame: int) -> None:
     """A frame that it does not take is said; a setpoint with nothing in it is none."""
     if trajectory is None:
-        pilot.say(CRITICAL, f"{what} unsupported"[:50])
+        pilot.say(CRITICAL, f"Setpoint coordinate frame {frame} unsupported")
     elif trajectory.says_something:
         pilot.hear_setpoint(trajectory)
 

@@ -79,4 +79,5 @@ PX4_PLANS = PlanRules(
     strict=False,
     first=0,
     talks=False,
+    starts_over=True,
 )

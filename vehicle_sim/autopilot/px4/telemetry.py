@@ -92,10 +92,6 @@ def autopilot_version(pilot: Commander) -> Any:
     )
 
 
-def protocol_version(pilot: Commander) -> Any:
-    return dialect.MAVLink_protocol_version_message(200, 100, 200, [0] * 8, [0] * 8)
-
-
 def mission_current(pilot: Commander) -> Any:
     mission = pilot.mission
     flies = 1 if pilot.mode is Mode.MISSION else 2
@@ -184,5 +180,4 @@ BUILDERS: dict[int, Builder] = {number: SHARED[number] for number in KEPT} | {
     148: autopilot_version,
     230: estimator_status,
     231: wind_cov,
-    300: protocol_version,
 }
