@@ -43,6 +43,7 @@ _READ = (
     "/telemetry/tick_late",
     "/telemetry/battery",
     "/radio/graph",
+    "/knowledge/**",
 )
 _NOT_OURS = "a recording that swarm launch --record wrote"
 
@@ -56,6 +57,7 @@ class Playback:
     Attributes:
         facts: what flew. mission_yaml: the whole mission, every key written out.
         observations: in the order of ticks. ticks_missing: ticks between the first and the last that are not there.
+        pages: what an agent knew, wanted and why, as Markdown: by uid, pairs of tick and page, in order.
         torn: the recording was never finished; it was repaired to be read.
     """
 
@@ -63,6 +65,7 @@ class Playback:
     facts: Facts
     mission_yaml: str
     observations: Sequence[Observation]
+    pages: Mapping[int, Sequence[tuple[int, str]]]
     ticks_missing: int
     torn: bool
 
@@ -109,6 +112,7 @@ def _played(path: Path, table: _Table, *, torn: bool) -> Playback:
         mission_yaml=mission["yaml"],
         observations=observations,
         ticks_missing=ticks[-1] - ticks[0] + 1 - len(ticks) if ticks else 0,
+        pages={uid: _pages(table, name) for uid, name in enumerate(agent_names(facts.agents))},
         torn=torn,
     )
 
@@ -252,6 +256,11 @@ def _said(table: _Table, speaker: str) -> dict[int, tuple[Event, ...]]:
         event = Event(_LEVELS[level], text.removeprefix(f"{speaker}  "))
         said[tick] = (*said.get(tick, ()), event)
     return said
+
+
+def _pages(table: _Table, speaker: str) -> list[tuple[int, str]]:
+    at, texts = table.rows(f"/knowledge/{speaker}", "TextDocument:text")
+    return [(tick, text) for tick, (text,) in zip(at, texts, strict=True)]
 
 
 def _held(at: Sequence[int], rows: Sequence[T], ticks: Iterable[int], before: T) -> list[T]:

@@ -14,11 +14,11 @@ from missions.observation import Observation
 class Fate(StrEnum):
     """How a call ended, for the target that was called for."""
 
-    HANDED_OVER = "handed over"  # a helper has it
-    TAKEN = "taken by a passer-by"  # somebody has it who had not set out to help
+    HANDED_OVER = "handed over to"  # a helper has it
+    TAKEN = "taken by passer-by"  # somebody has it who had not set out to help
     KEPT = "kept"  # the caller follows it still
     LOST = "lost"  # nobody has it
-    OPEN = "open"  # the mission ended first
+    OPEN = "out until the end"  # the mission ended first
 
 
 @dataclass(slots=True)

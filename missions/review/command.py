@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 
 from rich.console import Console
 from rich.text import Text
@@ -12,40 +13,79 @@ from missions.colors import ACTIVITY_COLORS, LEVEL_COLORS, hex_color
 from missions.problems import InputError
 from missions.report import as_json
 from missions.review.checks import judge, numbers_of
+from missions.review.comparison import print_comparison
+from missions.review.moment import print_moment
 from missions.review.options import ReviewOptions
+from missions.review.page import page_of
+from missions.review.pictures import over_time, side_by_side, write_picture
 from missions.review.reading import Review, read
 from missions.review.summary import print_summary
 from missions.review.timeline import Line
 
 DONE, FAILED = 0, 1
+_WIDE = 160
 
 
 def review(options: ReviewOptions) -> int:
-    """Read recordings and print or write what was asked for. Returns the exit code.
+    """Read recordings, and print and write what was asked for; a summary if nothing was. Returns the exit code.
 
     Raises:
-        InputError: a recording cannot be read, or a question makes no sense.
+        InputError: a recording cannot be read, a question makes no sense, or a file cannot be written.
     """
-    console = Console(highlight=False, emoji=False, soft_wrap=not sys.stdout.isatty())
-    if len(options.recordings) != 1:
-        raise InputError(f"F.rrd: got {len(options.recordings)} recordings; allowed: 1")
-    reviewed = read(options.recordings[0])
-    verdicts = [judge(condition, numbers_of(reviewed.report)) for condition in options.checks]
-    if options.json:
-        sys.stdout.write(as_json(reviewed.report))
-    if options.events:
-        _print_events(reviewed, console, everything=options.events == "all")
-    if not (options.json or options.events or options.checks):
-        print_summary(reviewed, console)
+    # Where nobody looks lines are not folded: they are for other programs.
+    console = Console(highlight=False, emoji=False, width=None if sys.stdout.isatty() else _WIDE)
+    reviews = [read(path) for path in options.recordings]
+    verdicts = [judge(text, numbers_of(one.report)) for one in reviews for text in options.checks]
+    if len(reviews) > 1:
+        _compare(reviews[0], reviews[1], options, console)
+    else:
+        _tell(reviews[0], options, console)
     for verdict in verdicts:
         console.print(str(verdict), style="" if verdict.holds else "bold red", markup=False)
     return DONE if all(verdict.holds for verdict in verdicts) else FAILED
 
 
-def _print_events(reviewed: Review, console: Console, *, everything: bool) -> None:
-    for line in reviewed.lines:
+def _compare(first: Review, second: Review, options: ReviewOptions, console: Console) -> None:
+    if options.plot is not None:
+        write_picture(side_by_side(first, second), options.plot)
+        _written(options.plot, console)
+    elif not options.checks:
+        print_comparison(first, second, console)
+
+
+def _tell(one: Review, options: ReviewOptions, console: Console) -> None:
+    if options.json:
+        sys.stdout.write(as_json(one.report))
+    if options.events:
+        _print_events(one, console, everything=options.events == "all")
+    if options.at_s is not None and options.agent is not None:
+        print_moment(one, time_s=options.at_s, uid=options.agent, console=console)
+    if options.plot is not None:
+        write_picture(over_time(one), options.plot)
+        _written(options.plot, console)
+    if options.page is not None:
+        _write(options.page, page_of(one))
+        _written(options.page, console)
+    asked = (options.json, options.events, options.at_s is not None, options.plot, options.page, options.checks)
+    if not any(asked):
+        print_summary(one, console)
+
+
+def _write(path: Path, text: str) -> None:
+    try:
+        path.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"--report: got {path}; allowed: a file that can be written ({error.strerror})") from error
+
+
+def _written(path: Path, console: Console) -> None:
+    console.print(str(path), markup=False, soft_wrap=True)
+
+
+def _print_events(one: Review, console: Console, *, everything: bool) -> None:
+    for line in one.lines:
         if everything or not line.routine:
-            console.print(_colored(line))
+            console.print(_colored(line), soft_wrap=True)
 
 
 def _colored(line: Line) -> Text:

@@ -73,7 +73,9 @@ def losses_of(
         for target in sorted(before.keys() - owners.keys()):
             chances = _chances(lately, target, before[target], speed_m_s=speed_m_s, sensing_range_m=sensing_range_m)
             call = _call_out(calls, target, before[target], seen.time_s)
-            helpers = tuple(status.uid for status in seen.statuses if status.helping == target)
+            helpers = tuple(
+                status.uid for status in seen.statuses if status.helping == target and status.uid not in before[target]
+            )
             at_large[target] = Loss(seen.time_s, target, before[target], call, helpers, chances)
             losses.append(at_large[target])
         before = owners

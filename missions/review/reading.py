@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from bisect import bisect_right
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ruamel.yaml import YAML
 
+from comms.arena import Arena, disc, rectangle
 from missions.metrics import Metrics
+from missions.observation import Observation
 from missions.recording.playback import Playback, play_back
 from missions.report import Report, report_of
 from missions.review.calls import Call, calls_of
 from missions.review.losses import Loss, losses_of
 from missions.review.timeline import Line, timeline_of
+from missions.review.words import clock
+
+_ROUNDING_S = 1e-6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -23,16 +29,37 @@ class Review:
 
     Attributes:
         report: what the mission itself reported, but for wall times. complete: it lasted its whole duration.
+        settings: the mission file, with every default, as it was recorded. arena, sensing_range_m: from there.
         began_s: mission clock at the beginning of MISSION; None if it never began.
     """
 
     playback: Playback
     report: Report
     complete: bool
+    settings: Mapping[str, Any]
+    arena: Arena
+    sensing_range_m: float
     began_s: float | None
     calls: Sequence[Call]
     losses: Sequence[Loss]
     lines: Sequence[Line]
+
+    @property
+    def notes(self) -> list[str]:
+        """What one must know to read the numbers: the recording is torn, or ticks are missing."""
+        notes = []
+        if self.playback.torn:
+            end = clock(self.playback.observations[-1].time_s)
+            notes.append(f"The recorder was killed. The recording was repaired to be read, and ends at {end}.")
+        if self.playback.ticks_missing:
+            notes.append(f"{self.playback.ticks_missing} ticks are missing: what is counted is counted without them.")
+        return notes
+
+    def at(self, time_s: float) -> Observation:
+        """The last tick that began by then (mission clock); the first one before that."""
+        observations = self.playback.observations
+        count = bisect_right(observations, time_s + _ROUNDING_S, key=lambda seen: seen.time_s)
+        return observations[max(0, count - 1)]
 
 
 def read(path: Path) -> Review:
@@ -46,18 +73,26 @@ def read(path: Path) -> Review:
     metrics = Metrics()
     for seen in observations:
         metrics.observe(seen)
-    # As they were recorded, with every default: this version need not know all of them.
-    settings: dict[str, Any] = YAML(typ="safe", pure=True).load(playback.mission_yaml)
+    # Read leniently: another version may have written keys that this one does not know.
+    settings: Mapping[str, Any] = YAML(typ="safe", pure=True).load(playback.mission_yaml)
+    range_m, speed_m_s = settings["agents"]["sensing"]["range_m"], settings["agents"]["speed_m_s"]
     calls = calls_of(observations)
-    flyers = settings["agents"]
-    losses = losses_of(observations, calls, speed_m_s=flyers["speed_m_s"], sensing_range_m=flyers["sensing"]["range_m"])
-    began = [seen.time_s for seen in observations if seen.mission_tick == 0]
+    losses = losses_of(observations, calls, speed_m_s=speed_m_s, sensing_range_m=range_m)
     return Review(
         playback=playback,
         report=report_of(facts, metrics, wall_s=None, clock_s=observations[-1].time_s, recording=path),
         complete=metrics.ticks >= round(settings["duration_s"] / facts.tick_s),
-        began_s=began[0] if began else None,
+        settings=settings,
+        arena=_arena(settings["arena"]),
+        sensing_range_m=range_m,
+        began_s=next((seen.time_s for seen in observations if seen.mission_tick is not None), None),
         calls=calls,
         losses=losses,
         lines=timeline_of(observations, calls, losses),
     )
+
+
+def _arena(settings: Mapping[str, Any]) -> Arena:
+    if settings["shape"] == "disc":
+        return disc(settings["radius_m"])
+    return rectangle(settings["width_m"], settings["height_m"])

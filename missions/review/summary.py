@@ -20,6 +20,13 @@ from missions.review.words import agent, clock, percent
 
 _BLOCKS = " ▁▂▃▄▅▆▇█"
 _COLUMNS = 60
+_FATES = {
+    Fate.HANDED_OVER: "handed over",
+    Fate.TAKEN: "taken by passers-by",
+    Fate.KEPT: "kept",
+    Fate.LOST: "lost",
+    Fate.OPEN: "out until the end",
+}
 _SHOWN_LOSSES, _SHOWN_FAULTS = 12, 12
 _GOOD, _BAD, _DIM = hex_color(ACTIVITY_COLORS[Activity.FOLLOW]), hex_color(ACTIVITY_COLORS[Activity.LOST]), "dim"
 
@@ -31,7 +38,7 @@ def print_summary(review: Review, console: Console) -> None:
 
 def _parts(review: Review) -> Iterable[RenderableType]:
     yield _title(review)
-    yield from _warnings(review)
+    yield from (Text(note, "yellow") for note in review.notes)
     yield Text()
     yield _facts(review)
     if review.losses:
@@ -51,15 +58,6 @@ def _title(review: Review) -> Text:
         f"{clock(report['duration_s'])} of mission, ",
         outcome,
     )
-
-
-def _warnings(review: Review) -> Iterable[Text]:
-    if review.playback.torn:
-        end = clock(review.playback.observations[-1].time_s)
-        yield Text(f"The recorder was killed: repaired to be read, and ends at {end}.", "yellow")
-    if review.playback.ticks_missing:
-        text = f"{review.playback.ticks_missing} ticks are missing: counts are of those that are there."
-        yield Text(text, "yellow")
 
 
 def _facts(review: Review) -> Table:
@@ -132,7 +130,7 @@ def _lane(review: Review) -> Text:
 def _help_words(review: Review) -> str:
     report = review.report["help"]
     fates = Counter(call.fate for call in review.calls)
-    ends = ", ".join(f"{fates[fate]} {fate.value}" for fate in Fate if fates[fate])
+    ends = ", ".join(f"{fates[fate]} {words}" for fate, words in _FATES.items() if fates[fate])
     return f"{report['calls']} calls" + (f": {ends}" if ends else "") + f"; {report['answered']} set out to help"
 
 

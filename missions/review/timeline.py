@@ -63,9 +63,9 @@ def timeline_of(observations: Sequence[Observation], calls: Sequence[Call], loss
 
 def call_words(call: Call) -> str:
     """How a call ended, on one line."""
-    whom = f" to {agent(call.owner)}" if call.owner is not None and call.owner != call.caller else ""
-    came = f", {agents(call.helpers)} had set out" if call.helpers else ", nobody had set out"
-    return f"call for {target(call.target)} ends after {call.lasted_s:.1f} s: {call.fate.value}{whom}{came}"
+    whom = f" {agent(call.owner)}" if call.owner is not None and call.owner != call.caller else ""
+    came = f"{agents(call.helpers)} had set out" if call.helpers else "nobody had set out"
+    return f"call for {target(call.target)} ends after {call.lasted_s:.1f} s: {call.fate.value}{whom}; {came}"
 
 
 def loss_words(loss: Loss) -> str:

@@ -24,7 +24,7 @@ def clock_s(text: str) -> float:
     """
     match = _CLOCK.fullmatch(text.strip())
     if match is None:
-        raise InputError(f'--at: got "{text}"; allowed: minutes and seconds, such as 2:31.4, or seconds, such as 151.4')
+        raise InputError(f'got "{text}"; allowed: minutes and seconds, such as 2:31.4, or seconds, such as 151.4')
     return 60 * int(match[1] or 0) + float(match[2])
 
 

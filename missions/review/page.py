@@ -1,0 +1,109 @@
+"""A review as one page of HTML with its pictures inside: to be sent to a colleague, read without network."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from collections.abc import Iterable, Sequence
+from html import escape
+from importlib.resources import files
+from string import Template
+
+from matplotlib.figure import Figure
+
+from missions.colors import ACTIVITY_COLORS, LEVEL_COLORS, hex_color
+from missions.review.losses import Loss
+from missions.review.pictures import as_bytes, from_above, over_time
+from missions.review.reading import Review
+from missions.review.timeline import Line, call_words, loss_words
+from missions.review.words import agent, clock, percent
+
+
+def page_of(review: Review) -> str:
+    """The page."""
+    report = review.report
+    title = f"{report['mission']}, seed {report['seed']}"
+    template = Template((files("missions.review") / "page.html").read_text(encoding="utf-8"))
+    return template.substitute(
+        title=escape(title),
+        subtitle=escape(
+            f"{report['agents']} agents over {report['targets']} targets, {report['policy']}, "
+            f"{clock(report['duration_s'])} of mission, {'complete' if review.complete else 'not complete'}"
+        ),
+        notes="".join(f'<p class="note">{escape(note)}</p>' for note in review.notes),
+        tiles="".join(map(_tile, _tiles(review))),
+        over_time=_picture(over_time(review, titled=False), "Coverage, activities and distances over time"),
+        from_above=_picture(from_above(review), "Paths from above"),
+        losses=_table(("time", "who", "what", "found again"), map(_loss_row, review.losses)),
+        calls=_table(
+            ("began", "caller", "how it went"),
+            ((clock(call.began_s), agent(call.caller), call_words(call)) for call in review.calls),
+        ),
+        faults=_table(
+            ("time", "who", "what"),
+            (
+                (clock(fault["time_s"]), "mission" if fault["agent"] is None else agent(fault["agent"]), fault["what"])
+                for fault in report["faults"]
+            ),
+        ),
+        timeline="".join(_line(line) for line in review.lines if not line.routine),
+        mission=escape(review.playback.mission_yaml),
+        versions=escape(", ".join(f"{name} {version}" for name, version in report["versions"].items())),
+        recording=escape(review.playback.path.name),
+    )
+
+
+def _tiles(review: Review) -> Sequence[tuple[str, str, str]]:
+    """(label, number, what to hold it against) of what one wants to know first."""
+    report = review.report
+    events, helped, radio, mavlink = (report[key] for key in ("events", "help", "radio", "mavlink"))
+    utilization = report["utilization"]
+    reached = radio["delivered"] + radio["out_of_range"] + radio["lost"]
+    return (
+        ("coverage", percent(report["coverage"]), f"standing still at random: {percent(report['coverage_floor'])}"),
+        ("last quarter", percent(report["coverage_late"]), "coverage"),
+        ("utilization", "–" if utilization is None else f"{utilization:.2f}", "targets seen per agent"),
+        ("losses", str(events["target_loss"]), f"{events['target_discovery']} discovered"),
+        ("help calls", str(helped["calls"]), f"{helped['captured']} captured by helpers"),
+        (
+            "radio",
+            percent(radio["delivered"] / reached if reached else None),
+            f"of frames reached a mate, {radio['lost']} lost",
+        ),
+        ("MAVLink", str(mavlink["bad"] + mavlink["dropped"]), f"bad or dropped of {mavlink['received']}"),
+        ("faults", str(len(report["faults"])), "what should not have happened"),
+    )
+
+
+def _tile(tile: tuple[str, str, str]) -> str:
+    label, number, against = map(escape, tile)
+    return f'<div class="tile"><span>{label}</span><strong>{number}</strong><small>{against}</small></div>'
+
+
+def _picture(figure: Figure, about: str) -> str:
+    data = b64encode(as_bytes(figure, "png")).decode()
+    return f'<img alt="{escape(about)}" src="data:image/png;base64,{data}">'
+
+
+def _loss_row(loss: Loss) -> tuple[str, str, str, str]:
+    found = "never" if loss.found_after_s is None else f"after {loss.found_after_s:.1f} s"
+    return clock(loss.time_s), agent(loss.owners[0]), loss_words(loss), found
+
+
+def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    body = "".join(f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in row)}</tr>" for row in rows)
+    if not body:
+        return '<p class="none">None.</p>'
+    return f"<table><thead><tr>{''.join(f'<th>{escape(name)}</th>' for name in head)}</tr></thead>{body}</table>"
+
+
+def _line(line: Line) -> str:
+    color = LEVEL_COLORS[line.level]
+    doing = "" if line.activity is None else line.activity.value
+    dot = hex_color(color if line.activity is None else ACTIVITY_COLORS[line.activity])
+    who = "mission" if line.who is None else agent(line.who)
+    cells = (clock(line.time_s), who, doing, line.text)
+    first, second, third, fourth = map(escape, cells)
+    return (
+        f'<tr class="{line.level.value}"><td>{first}</td><td>{second}</td>'
+        f'<td><i style="background:{dot}"></i>{third}</td><td>{fourth}</td></tr>'
+    )
