@@ -5,11 +5,11 @@ Range is thus a fact of the world, not a promise of the receiver: an agent canno
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from comms import link
+from comms.disturbance import CALM, Disturbance
 from comms.keys import Keys, sender
 from comms.session import Bus, Put
 
@@ -47,9 +47,10 @@ class Air:
         self._model = model
         self._seed = seed
         self._n_agents = n_agents
+        self._tick_s = tick_s
         self._delay_ticks = link.delay_ticks(model.latency_s, tick_s)
         self._spoken: list[tuple[int, bytes]] = []
-        self._under_way: deque[tuple[int, int, int, bytes]] = deque()  # (due tick, dst, src, payload), by due tick
+        self._under_way: dict[int, list[tuple[int, int, bytes]]] = {}  # by due tick: (dst, src, payload)
         self._bus = bus
         self._keys = keys
         self._puts: dict[tuple[int, int], Put] = {}  # by (dst, src), declared when first needed
@@ -64,15 +65,15 @@ class Air:
         if src is not None and src < self._n_agents:
             self._spoken.append((src, payload))
 
-    def carry(self, tick: int, positions_m: Sequence[tuple[float, float]]) -> int:
+    def carry(self, tick: int, positions_m: Sequence[tuple[float, float]], disturbance: Disturbance = CALM) -> int:
         """Deliver what must be heard at tick + 1. Returns the number of deliveries.
 
         Args:
             tick: the tick whose frames have all been spoken.
             positions_m: every agent's true (x, y) at that tick, by uid.
+            disturbance: what is wrong with the links at that tick.
         """
-        model, count = self._model, self.count
-        due = tick + self._delay_ticks
+        range_m, count = self._model.range_m, self.count
         broken: list[tuple[int, int]] = []
         self._spoken.sort(key=lambda spoken: spoken[0])
         for src, payload in self._spoken:
@@ -82,19 +83,20 @@ class Air:
             for dst, (other_x, other_y) in enumerate(positions_m):
                 if dst == src:
                     continue
-                if not link.in_range(other_x - x, other_y - y, model.range_m):
+                if not link.in_range(other_x - x, other_y - y, range_m):
                     count.out_of_range += 1
-                elif not link.survives(self._seed, tick, src, dst, model.loss):
-                    broken.append((src, dst))
+                    continue
+                loss, delay_ticks = self._quality(tick, src, dst, disturbance)
+                if link.survives(self._seed, tick, src, dst, loss):
+                    self._under_way.setdefault(tick + delay_ticks, []).append((dst, src, payload))
                 else:
-                    self._under_way.append((due, dst, src, payload))
+                    broken.append((src, dst))
         self._spoken.clear()
         count.lost += len(broken)
         self.broken = tuple(broken)
         self.due = [0] * self._n_agents
         links = set()
-        while self._under_way and self._under_way[0][0] <= tick + 1:
-            _, dst, src, payload = self._under_way.popleft()
+        for dst, src, payload in self._under_way.pop(tick + 1, ()):
             self._deliver(dst, src, payload)
             links.add((src, dst) if src < dst else (dst, src))
             self.due[dst] += 1
@@ -102,6 +104,14 @@ class Air:
         count.delivered += delivered
         self.links = tuple(sorted(links))
         return delivered
+
+    def _quality(self, tick: int, src: int, dst: int, disturbance: Disturbance) -> tuple[float, int]:
+        """How likely a frame from `src` to `dst` is lost, and after how many ticks it is heard."""
+        model = self._model
+        if disturbance is CALM:
+            return model.loss, self._delay_ticks
+        loss, later_s = disturbance.of(tick, src, dst, seed=self._seed)
+        return 1.0 - (1.0 - model.loss) * (1.0 - loss), link.delay_ticks(model.latency_s + later_s, self._tick_s)
 
     def _deliver(self, dst: int, src: int, payload: bytes) -> None:
         put = self._puts.get((dst, src))

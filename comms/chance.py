@@ -20,6 +20,7 @@ GPS_NOISE = 11
 BARO_NOISE = 12
 COMPASS_NOISE = 13
 IMU_NOISE = 14
+LINK_BURST = 15
 
 
 def mix(x: int) -> int:

@@ -46,6 +46,11 @@ class Radio:
         """Speak: one frame, to whoever is in range."""
         self._put(codec.encode(frame))
 
+    def forget(self) -> None:
+        """Be as new: nothing waits, and nobody has been heard. What a computer that goes out does to its radio."""
+        self._arrived.clear()
+        self._last_seq.clear()
+
     def drain(self, now_s: float) -> list[Frame]:
         """The believable frames since the last call, sorted by (src, seq). Never raises on what arrived."""
         frames = []

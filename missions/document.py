@@ -40,7 +40,7 @@ class Document:
         """The value at `path`; None if a section on the way there is absent."""
         value: Any = self.values
         for key in path:
-            value = value.get(key) if isinstance(value, dict) else None
+            value = step(value, key)
         return value
 
     def put(self, path: Path, value: Any, mark: Mark) -> None:
@@ -70,6 +70,14 @@ class Document:
     def copy(self) -> Document:
         """The same document, to be changed apart from this one."""
         return Document(self.source, deepcopy(self.values), dict(self.marks), list(self.problems))
+
+
+def step(value: Any, key: str) -> Any:
+    """What lies at `key` of a mapping, or at that number of a list; None where nothing does."""
+    if isinstance(value, dict):
+        return value.get(key)
+    inside = isinstance(value, list) and key.isdecimal() and int(key) < len(value)
+    return value[int(key)] if inside else None
 
 
 def read_document(data: bytes, *, source: str) -> Document:

@@ -18,6 +18,7 @@ from missions.observation import Observer
 from missions.sides.agent import AgentSide, agent_sides
 from missions.sides.exchange import Cue, Done
 from missions.sides.world import WorldSide, fly
+from swarm_agent.agent import Agent
 
 
 class Flight:
@@ -37,8 +38,12 @@ class Flight:
         self.world, self.air, self.coverage = self.side.world, self.side.air, self.side.coverage
         uids = range(mission.agents.count)
         self.crew = agent_sides(mission, bus, uids, n_targets=len(self.world.places), transports=transports)
-        self.agents = [side.agent for side in self.crew]
         self.vehicles = [side.vehicle for side in self.crew]
+
+    @property
+    def agents(self) -> list[Agent]:
+        """Every agent as its computer runs it now, by uid."""
+        return [side.agent for side in self.crew]
 
     @property
     def clock_s(self) -> float:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path as FilePath
 from types import NoneType
-from typing import Any, Literal, get_args, get_origin
+from typing import Annotated, Any, Literal, get_args, get_origin
 
 from pydantic import Tag
 from pydantic.fields import FieldInfo
@@ -55,6 +55,8 @@ def variants(field: FieldInfo) -> dict[str | None, type[Part]]:
     annotation = field.annotation
     if get_origin(annotation) is tuple:
         annotation = get_args(annotation)[0]
+        if get_origin(annotation) is Annotated:
+            annotation = get_args(annotation)[0]
     if isinstance(annotation, type) and issubclass(annotation, Part):
         return {_ONLY: annotation}
     tagged = [get_args(choice) for choice in get_args(annotation)]

@@ -19,7 +19,8 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 from ruamel.yaml import YAML
 
-from missions.document import Document, read_document
+from missions.document import Document, read_document, step
+from missions.faults.consistency import fault_rules
 from missions.keys import Key, allowed, chooser, find_key
 from missions.mission import Mission, Part
 from missions.overrides import Override, Setting, apply_override
@@ -163,7 +164,8 @@ def key_problem(document: Document, error: ErrorDetails, root: type[Part] = Miss
     chosen = chooser(key.field)
     if chosen is not None and isinstance(error["input"], dict):
         path = (*key.path, chosen[0])
-        return Problem(document.mark(path), path, shown(document.value(path)), chosen[1])
+        got = shown(document.value(path)) if chosen[0] in error["input"] else "nothing"
+        return Problem(document.mark(path), path, got, chosen[1])
     got = "nothing" if error["type"] == "missing" else shown(error["input"])
     return Problem(mark, key.path, got, allowed(key.field))
 
@@ -201,7 +203,11 @@ def _broken_rules(
 ) -> list[Problem]:
     if mission is None:
         return []
-    checkable = [rule for rule in rules if not any(path[:n] in wrong for path in rule.paths for n in range(1, 9))]
+    checkable = [
+        rule
+        for rule in (*rules, *fault_rules(mission))
+        if not any(path[:n] in wrong for path in rule.paths for n in range(1, 9))
+    ]
     broken = [(rule, rule.allowed(mission)) for rule in checkable]
     return [_rule_problem(document, mission, rule, text) for rule, text in broken if text is not None]
 
@@ -210,7 +216,7 @@ def _rule_problem(document: Document, mission: Mission, rule: Rule, text: str) -
     blamed = rule.paths[0]
     value: Any = mission.model_dump(mode="json")
     for name in blamed:
-        value = value[name]
+        value = step(value, name)
     if blamed in document.marks:
         return Problem(document.marks[blamed], blamed, shown(value), text)
     # A default is at odds with what was given elsewhere: that is the line to look at.

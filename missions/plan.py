@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from comms.arena import area_m2
 from comms.frames import GeoPoint, Vec3, geo_from_enu
+from missions.faults.words import lasting, whom
 from missions.mission import Mission, MovingTargets
 from missions.observation import Phase
 from missions.problems import shown
@@ -99,7 +100,10 @@ def print_plan(plan: Plan, console: Console) -> None:
     if mission.description:
         console.print(mission.description)
     console.print(_summary(plan))
-    for table in (_agent_table(plan), _phase_table(plan), _setting_table(mission)):
+    tables = [_agent_table(plan), _phase_table(plan)]
+    if mission.faults:
+        tables.append(_fault_table(mission))
+    for table in (*tables, _setting_table(mission)):
         console.print()
         console.print(table)
 
@@ -149,6 +153,13 @@ def _phase_table(plan: Plan) -> Table:
     return table
 
 
+def _fault_table(mission: Mission) -> Table:
+    table = _table("Faults", "at s", "for s", "what", "whom", numbers=("at s", "for s"))
+    for fault in sorted(mission.faults, key=lambda fault: fault.at_s):
+        table.add_row(shown(fault.at_s), lasting(fault), fault.what, whom(fault))
+    return table
+
+
 def _setting_table(mission: Mission) -> Table:
     table = _table("Settings", "key", "value", "default, where it differs")
     defaults = _settings(Mission(name=mission.name).model_dump(mode="json"))
@@ -159,7 +170,7 @@ def _setting_table(mission: Mission) -> Table:
 
 
 def _setting(value: Any) -> str:
-    return value if isinstance(value, str) else shown(value)
+    return value if isinstance(value, str) else "none" if value == [] else shown(value)
 
 
 def _settings(section: dict[str, Any], prefix: str = "") -> dict[str, Any]:

@@ -33,7 +33,7 @@ class LinkedVehicle:
 
     def __init__(self, transport: Transport, *, pilot: Pilot, pad_m: Vec3) -> None:
         self.transport = transport
-        self._pilot = pilot
+        self.pilot = pilot
         self._pad_m = pad_m
 
     def tick(self, now_s: float, wire_in: bytes) -> bytes:
@@ -44,7 +44,7 @@ class LinkedVehicle:
     @property
     def truth(self) -> VehicleTruth:
         """As telemetry has it; until it has told anything it stands on its pad."""
-        state, pad = self._pilot.state, self._pad_m
+        state, pad = self.pilot.state, self._pad_m
         here = state.position_m or pad
         return VehicleTruth(
             position_ned_m=swap_enu_ned((here[0] - pad[0], here[1] - pad[1], here[2] - pad[2])),

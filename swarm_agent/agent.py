@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import floor
 from typing import NamedTuple
 
 from msgspec import structs
@@ -30,6 +31,7 @@ from swarm_agent.reasons import Reasons
 from swarm_agent.safety import Guard, SafetyConfig
 
 _NOWHERE = (0.0, 0.0, 0.0)
+FRAMES_PER_S = 1000  # no agent sends more: a number that counts from the clock is above all that came before
 
 
 class Order(NamedTuple):
@@ -79,6 +81,7 @@ class Agent:
     def __init__(self, config: AgentConfig, *, signing: Signing | None = None) -> None:
         """`signing`: of the link to its vehicle, if that is signed."""
         self._config = config
+        self._signing = signing
         self._on_duty = False
         self._table, self._mind = self._innocence()
         self._wanted_m_s = 0.0, 0.0
@@ -91,6 +94,10 @@ class Agent:
     def uid(self) -> int:
         """Its number, from 0."""
         return self._config.uid
+
+    def begun_anew(self) -> Agent:
+        """The same agent as it was before it had seen anything."""
+        return Agent(self._config, signing=self._signing)
 
     def tick(
         self, now_s: float, order: Order, sightings: Sequence[Sighting], inbox: Sequence[Frame], telemetry: bytes
@@ -165,7 +172,8 @@ class Agent:
         self, now_s: float, position_m: tuple[float, float, float], velocity_m_s: tuple[float, float, float]
     ) -> Frame:
         table, params = self._table, self._config.params
-        self._seq += 1
+        # Not from 1, or the frames of an agent that begins anew would be taken for replays of its earlier life.
+        self._seq = self._seq + 1 if self._seq else floor(now_s * FRAMES_PER_S) + 1
         return Frame(
             self._config.uid,
             self._seq,

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 from comms.messages import Sighting
 from vehicle_sim.herd import Herd, Place
@@ -42,10 +43,17 @@ class World:
         """Where every target is, ENU meters; None while it is not in the world."""
         return self.herd.places
 
-    def sense(self, tick: int, agents: Sequence[Place | None], velocities_m_s: Sequence[Place]) -> list[list[Sighting]]:
+    def sense(
+        self,
+        tick: int,
+        agents: Sequence[Place | None],
+        velocities_m_s: Sequence[Place],
+        identity_errors: Mapping[int, float] = MappingProxyType({}),
+    ) -> list[list[Sighting]]:
         """What each agent at its true (x, y) sees in state `tick`, by uid; one on the ground (None) sees nothing.
 
         Sightings are in the order of the targets seen, whose names may be mistaken: two may bear the same one.
+        `identity_errors`, by uid, are those of agents that mistake targets more often than usual.
         """
         seen = [False] * len(self.herd.places)
         self._facing = [facing(*was, *velocity) for was, velocity in zip(self._facing, velocities_m_s, strict=True)]
@@ -56,7 +64,8 @@ class World:
             x, y = place
             for uid, agent in enumerate(agents):
                 if agent is not None and self._sees(uid, x - agent[0], y - agent[1]):
-                    name = reported(target, len(seen), self._identity_error, uid, self._seed, tick)
+                    error = identity_errors.get(uid, self._identity_error)
+                    name = reported(target, len(seen), error, uid, self._seed, tick)
                     sightings[uid].append(Sighting(name, x, y))
                     seen[target] = True
         self.seen = seen

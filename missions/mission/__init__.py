@@ -15,6 +15,7 @@ from pydantic import Field
 
 from missions.mission.agents import AgentDeployment, Agents, Altitude, Sensing
 from missions.mission.arena import Arena, Disc, Home, Rectangle
+from missions.mission.faults import Faults
 from missions.mission.part import NAME, Allowed, Name, NonNegative, Part, Positive
 from missions.mission.policy import Policy
 from missions.mission.radio import Radio
@@ -82,6 +83,8 @@ class Mission(Part):
     """What carries an agent."""
     safety: Safety = Safety()
     """What every agent keeps to."""
+    faults: Faults = ()
+    """What goes wrong, and when."""
 
     def link(self, uid: int) -> str | None:
         """Where agent `uid`'s vehicle is reached; None where it is simulated."""

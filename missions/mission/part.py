@@ -33,9 +33,9 @@ class Part(BaseModel):
     )
 
 
-def tag_by(key: str, tags: Mapping[str, str]) -> Callable[[Any], str | None]:
-    """Which variant of a section is meant: `tags` of the value at `key`; the first one if the key is absent."""
-    default = next(iter(tags))
+def tag_by(key: str, tags: Mapping[str, str], *, required: bool = False) -> Callable[[Any], str | None]:
+    """Which variant of a section is meant: `tags` of the value at `key`; the first, or none, if the key is absent."""
+    default = None if required else next(iter(tags))
 
     def tag(section: Any) -> str | None:
         chosen = section.get(key, default) if isinstance(section, Mapping) else getattr(section, key, None)

@@ -13,16 +13,20 @@ from comms.session import Bus
 from comms.status import Activity, AgentStatus
 from comms.transport import Transport
 from missions import compose
+from missions.faults.breaker import Breaker
+from missions.faults.schedule import Schedule
 from missions.mission import Mission
 from missions.observation import AgentTruth
+from missions.sides.computer import Computer
 from missions.sides.exchange import HELLO_TICK, Cue, Done, LinkCount
-from missions.vehicles import Vehicle
-from swarm_agent.agent import Agent, Order
+from missions.vehicles import LinkedVehicle, Vehicle
+from swarm_agent.agent import Agent, Output
 from swarm_agent.autopilot import Phase as PilotPhase
 from vehicle_sim.autopilot import SimulatedVehicle
 
 # Told at every tick: the mission clock, what the vehicle has said by now, what the agent says to it.
 Tap = Callable[[float, bytes, bytes], None]
+NOTHING_COUNTED = LinkCount()
 
 
 class AgentSide:
@@ -30,24 +34,34 @@ class AgentSide:
 
     Args:
         pad_m: where its vehicle stands at first, ENU meters: what its truth counts from.
+        faults: what goes wrong with it, and when.
 
     Attributes:
         tap: hears what passes on the link to the vehicle, if anybody wants to.
     """
 
-    def __init__(self, agent: Agent, vehicle: Vehicle, radio: Radio, *, pad_m: Vec3, tick_s: float) -> None:
+    def __init__(
+        self, agent: Agent, vehicle: Vehicle, radio: Radio, *, pad_m: Vec3, tick_s: float, faults: Schedule
+    ) -> None:
         self.uid = agent.uid
-        self.agent = agent
         self.vehicle = vehicle
-        self.radio = radio
+        self.computer = Computer(agent, radio)
+        self._faults = faults
+        self._breaker = Breaker(vehicle) if isinstance(vehicle, SimulatedVehicle) else None
+        self._former = LinkCount()  # of agents before this one
         self._pad_m = pad_m
         self._tick_s = tick_s
-        self._telemetry = b""
+        self._said = b""  # by the vehicle, at the end of the last tick
         self.tap: Tap | None = None
+
+    @property
+    def agent(self) -> Agent:
+        """The agent as its computer runs it now."""
+        return self.computer.agent
 
     def hello(self) -> Done:
         """It is there, and stands where it stands."""
-        return self._done(HELLO_TICK, AgentStatus(uid=self.uid, activity=Activity.PREPARING), spoke=False)
+        return self._done(HELLO_TICK, AgentStatus(uid=self.uid, activity=Activity.PREPARING))
 
     def tick(self, cue: Cue) -> Done:
         """Hear, think, act, say; then the vehicle moves to the next state.
@@ -56,19 +70,32 @@ class AgentSide:
             RuntimeError: the inbox is not what was sent to it.
         """
         now_s, after_s = cue.tick * self._tick_s, (cue.tick + 1) * self._tick_s
-        if cue.frames is not None and self.radio.waiting != cue.frames:
-            got = f"{self.radio.waiting} frames arrived of {cue.frames}"
-            raise RuntimeError(f"lockstep broken at {now_s:.1f} s, agent {self.uid}: {got}")
-        order = Order(mission_tick=cue.mission_tick, come_home=cue.come_home, explain=cue.explain)
-        output = self.agent.tick(now_s, order, cue.sightings, self.radio.drain(now_s), self._telemetry)
+        if self._breaker is not None:
+            self._breaker.apply(self._faults, self.uid, cue.fault_tick)
+        output = self._think(cue, now_s)
         if self.tap is not None:
-            self.tap(now_s, self._telemetry, output.wire)
-        if output.frame is not None:
-            self.radio.send(output.frame)
-        self._telemetry = self.vehicle.tick(after_s, output.wire)
-        return self._done(cue.tick, output.status, spoke=output.frame is not None)
+            self.tap(now_s, self._said, output.wire)
+        self._said = self.vehicle.tick(after_s, output.wire)
+        self.computer.take(self._said)
+        return self._done(cue.tick, output.status, spoke=output.frame is not None, abandoned=self._abandoned(cue))
 
-    def _done(self, tick: int, status: AgentStatus, *, spoke: bool) -> Done:
+    def _think(self, cue: Cue, now_s: float) -> Output:
+        ills, before = self._faults.at(cue.fault_tick), self.agent
+        if self.uid in ills.dead:
+            return self.computer.go_out()
+        if self.uid in ills.frozen:
+            return self.computer.stand_still()
+        output = self.computer.think(cue, now_s)
+        if self.agent is not before:
+            self._former = _count([before.pilot.endpoint], beside=self._former)
+            if isinstance(self.vehicle, LinkedVehicle):
+                self.vehicle.pilot = self.agent.pilot
+        return output
+
+    def _abandoned(self, cue: Cue) -> bool:
+        return cue.fault_tick is not None and not self._faults.comes_back(self.uid, cue.fault_tick)
+
+    def _done(self, tick: int, status: AgentStatus, *, spoke: bool = False, abandoned: bool = False) -> Done:
         truth, pilot = self.vehicle.truth, self.agent.pilot
         east, north, up = swap_enu_ned(truth.position_ned_m)
         pad = self._pad_m
@@ -82,8 +109,8 @@ class AgentSide:
             on_ground=truth.on_ground,
             spoke=spoke,
             ready=state.ready,
-            unheard=state.link_lost and state.phase is PilotPhase.FAILED,
-            pilot=_count([pilot.endpoint]),
+            unheard=abandoned or (state.link_lost and state.phase is PilotPhase.FAILED),
+            pilot=_count([pilot.endpoint], beside=self._former),
             vehicle=_count(
                 [channel.endpoint for channel in self.vehicle.channels]
                 if isinstance(self.vehicle, SimulatedVehicle)
@@ -107,7 +134,7 @@ def agent_sides(
     """
     agents = compose.agents(mission, uids, n_targets)
     vehicles = compose.vehicles(mission, [agent.pilot for agent in agents], transports)
-    keys, places = Keys(mission.name), compose.deployment(mission)
+    keys, places, faults = Keys(mission.name), compose.deployment(mission), Schedule(mission)
     return [
         AgentSide(
             agent,
@@ -115,13 +142,14 @@ def agent_sides(
             Radio(bus, keys=keys, uid=agent.uid),
             pad_m=(*places[agent.uid], 0.0),
             tick_s=mission.tick_s,
+            faults=faults,
         )
         for agent, vehicle in zip(agents, vehicles, strict=True)
     ]
 
 
-def _count(endpoints: Iterable[Endpoint]) -> LinkCount:
-    sent = received = bad = dropped = 0
+def _count(endpoints: Iterable[Endpoint], *, beside: LinkCount = NOTHING_COUNTED) -> LinkCount:
+    sent, received, bad, dropped = beside.sent, beside.received, beside.bad, beside.dropped
     for end in endpoints:
         sent, received = sent + end.sent, received + end.received
         bad, dropped = bad + end.bad, dropped + end.dropped

@@ -20,6 +20,7 @@ class Cue(msgspec.Struct, frozen=True, kw_only=True, array_like=True):
 
     Attributes:
         tick: ticks since power-on. mission_tick: since MISSION began; None outside it.
+        fault_tick: since MISSION began, after its end too: the time of the mission's faults.
         come_home: the mission is over: return and land.
         explain: somebody wants to know what the agent knows.
         sightings: what the agent's sensor sees now.
@@ -28,6 +29,7 @@ class Cue(msgspec.Struct, frozen=True, kw_only=True, array_like=True):
 
     tick: int
     mission_tick: int | None = None
+    fault_tick: int | None = None
     come_home: bool = False
     explain: bool = False
     sightings: tuple[Sighting, ...] = ()

@@ -38,6 +38,7 @@ class Phases:
         self._duration_ticks = max(1, round(duration_s / tick_s))
         self._stopped = False
         self._ready_since: int | None = None
+        self._mission_began: int | None = None
 
     @property
     def complete(self) -> bool:
@@ -47,6 +48,10 @@ class Phases:
     def mission_tick(self, tick: int) -> int | None:
         """Ticks since MISSION began; None outside it."""
         return tick - self.began if self.now is Phase.MISSION else None
+
+    def fault_tick(self, tick: int) -> int | None:
+        """Ticks since MISSION began, after its end too; None before it."""
+        return None if self._mission_began is None else tick - self._mission_began
 
     def announcement(self, tick: int) -> tuple[Event, ...]:
         """What is to be said in this tick: that a phase begins, if one does, and that it does so too early."""
@@ -66,6 +71,8 @@ class Phases:
         self._stopped = stop and phase is Phase.RETURN and not self.complete
         if phase is not self.now:
             self.now, self.began = phase, next_tick
+            if phase is Phase.MISSION:
+                self._mission_began = next_tick
 
     def _next(self, next_tick: int, dones: Sequence[Done], stop: bool) -> Phase:
         in_phase_s = floor((next_tick - self.began) * self._tick_s)

@@ -10,6 +10,7 @@ from comms.messages import Sighting
 from comms.session import Bus
 from missions import compose
 from missions.coverage import Coverage
+from missions.faults.schedule import Schedule
 from missions.mission import Mission
 from missions.observation import Observation, Observer, Phase, TargetTruth, Totals
 from missions.sides.exchange import Cue, Done
@@ -44,6 +45,7 @@ class WorldSide:
         self._phases = Phases(tick_s=mission.tick_s, duration_s=mission.duration_s)
         self._tick = 0
         self._late_s = 0.0
+        self._faults = Schedule(mission)
 
     @property
     def tick(self) -> int:
@@ -77,16 +79,19 @@ class WorldSide:
     def cue(self, late_s: float) -> list[Cue]:
         """Begin a tick, `late_s` behind the wall clock: what each agent is told, by uid."""
         self._late_s = late_s
-        mission_tick = self._phases.mission_tick(self._tick)
+        mission_tick, fault_tick = self._phases.mission_tick(self._tick), self._phases.fault_tick(self._tick)
         if mission_tick is None:
             sightings: list[list[Sighting]] = [[] for _ in self.dones]
         else:
             velocities = [done.truth.velocity_m_s[:2] for done in self.dones]
-            sightings = self.world.sense(mission_tick, self._aloft(), velocities)
+            ills = self._faults.at(fault_tick)
+            watching = [None if ills.stopped(uid) else place for uid, place in enumerate(self._aloft())]
+            sightings = self.world.sense(mission_tick, watching, velocities, ills.identity_errors)
         return [
             Cue(
                 tick=self._tick,
                 mission_tick=mission_tick,
+                fault_tick=fault_tick,
                 come_home=self._phases.now is Phase.RETURN,
                 explain=self._is_explained(),
                 sightings=tuple(seen),
@@ -99,7 +104,8 @@ class WorldSide:
         """Given what came of the cues, by uid: what was said travels, and targets move on. Returns what was."""
         before, aloft, tick = self.dones, self._aloft(), self._tick
         mission_tick = self._phases.mission_tick(tick)
-        self.air.carry(tick, [done.truth.position_m[:2] for done in before])
+        links = self._faults.at(self._phases.fault_tick(tick)).links
+        self.air.carry(tick, [done.truth.position_m[:2] for done in before], links)
         if mission_tick is not None:
             present = sum(1 for place in self.world.places if place is not None)
             self.coverage.add(seen=sum(self.world.seen), present=present)
@@ -145,7 +151,7 @@ class WorldSide:
             utilization=None if mean is None else mean * len(targets) / len(dones),
             tick_late_s=self._late_s,
             totals=self._totals(dones),
-            events=self._phases.announcement(self._tick),
+            events=self._phases.announcement(self._tick) + self._faults.news(self._phases.fault_tick(self._tick)),
         )
 
     def _totals(self, dones: Sequence[Done]) -> Totals:

@@ -16,6 +16,7 @@ from swarm_agent.autopilot.state import Phase
 
 LIFTED_M = 0.5  # higher than this above where it stood: off the ground, whatever the landed state says yet
 LIFT_OFF_S = 6.0  # an accepted takeoff that has not lifted off after this long is asked for again
+HOMING_CONNECT_S = 3.0  # whoever begins anew when all come home has a vehicle that may be heard
 STALLED_M_S = 0.15
 STALLED_S = 3.0  # a climb that has stood still for so long below the layer is finished by setpoints
 
@@ -35,7 +36,8 @@ class Connect(OnTheWay):
         telemetry, config = cockpit.telemetry, cockpit.config
         if telemetry.autopilot is None:
             waited_s = now_s - self._since_s
-            if waited_s > config.connect_limit_s or isinstance(intent, Return | Land):
+            limit_s = HOMING_CONNECT_S if isinstance(intent, Return | Land) else config.connect_limit_s
+            if waited_s > limit_s:
                 who = "any autopilot" if config.system_id is None else f"system {config.system_id}"
                 return Failed(f"no heartbeat from {who} in {waited_s:.0f} s")
             return self

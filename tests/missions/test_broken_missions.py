@@ -8,8 +8,10 @@ import pytest
 
 from missions.cli import BAD_INPUT, main
 
-BUNDLED = "baboons, crowded, narrow, quickstart, reference, tracks, wildlife"
-TOP = "name, description, seed, duration_s, tick_s, arena, home, agents, targets, radio, policy, vehicle, safety"
+BUNDLED = "baboons, crowded, faults, narrow, quickstart, reference, tracks, wildlife"
+TOP = (
+    "name, description, seed, duration_s, tick_s, arena, home, agents, targets, radio, policy, vehicle, safety, faults"
+)
 MISSION = "a YAML file with a mission: a mapping with at least a name"
 NAME = "a word of letters, digits, '_', '.' and '-', at most 64 long, that starts with a letter or digit"
 CORNERS = "a list of 3 to 64 corners [east, north], each number from -50000 to 50000"

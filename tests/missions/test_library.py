@@ -32,7 +32,16 @@ def errors_of(values: Any) -> list[str]:
 
 
 def test_these_are_bundled() -> None:
-    assert bundled_names() == ["baboons", "crowded", "narrow", "quickstart", "reference", "tracks", "wildlife"]
+    assert bundled_names() == [
+        "baboons",
+        "crowded",
+        "faults",
+        "narrow",
+        "quickstart",
+        "reference",
+        "tracks",
+        "wildlife",
+    ]
 
 
 # The schema.

@@ -106,7 +106,7 @@ class TestConnect:
         assert flight.pilot.state.failure == "MAV_AUTOPILOT 9 is not supported, only ardupilot, px4"
 
     def test_return_before_any_heartbeat_ends(self) -> None:
-        flight = Flight(ScriptedCopter(quiet=True)).until(Phase.FAILED, Return(), seconds=1.0)
+        flight = Flight(ScriptedCopter(quiet=True)).until(Phase.FAILED, Return(), seconds=4.0)
         assert "no heartbeat" in flight.pilot.state.failure
 
 

@@ -97,6 +97,14 @@ class Autopilot(ABC):
         """Change the flight mode; a refusal may say why. Returns whether it was done."""
 
     @abstractmethod
+    def disarm(self, *, forced: bool) -> bool:
+        """Stop the motors, `forced` in the air too. Returns whether they stand."""
+
+    @abstractmethod
+    def reboot(self) -> bool:
+        """Start over where it is, with the parameters and plans it has. Not while armed."""
+
+    @abstractmethod
     def fly_item(self, item: Item, there: bool) -> bool:
         """A mission item as an order: fly to its place, or (not `there`) to its height. Whether it does."""
 

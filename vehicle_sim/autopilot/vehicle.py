@@ -95,6 +95,12 @@ class SimulatedVehicle:
                     channel.endpoint.send(report)
         return first.take()
 
+    def lose_power(self) -> None:
+        """The autopilot goes out for a moment: its motors stop wherever it is, and it boots again."""
+        self.autopilot.disarm(forced=True)
+        self.autopilot.reboot()
+        self._begin_anew()
+
     def open_channel(self, *, signing: Signing | None = None) -> Channel:
         """One more link to this vehicle, beside those it has; with `signing` it hears only whom it can believe."""
         channel = Channel(system_id=self.autopilot.system_id, streams=self._new_streams(), signing=signing)
@@ -163,6 +169,10 @@ class SimulatedVehicle:
         self._acknowledge(message, message.command, int(result))
         for reply in replies:
             self.endpoint.send(reply)
+        self._begin_anew()
+
+    def _begin_anew(self) -> None:
+        """After a reboot every link forgets what it was asked for."""
         if self.autopilot.restarted:
             self.autopilot.restarted = False
             for channel in self.channels:

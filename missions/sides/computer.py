@@ -1,0 +1,70 @@
+"""An agent's computer: the agent, its radio, and the bytes that wait for it. It can stand still, and go out."""
+
+from __future__ import annotations
+
+from comms.radio import MAX_WAITING, Radio
+from comms.status import Activity, AgentStatus
+from missions.sides.exchange import Cue
+from swarm_agent.agent import Agent, Order, Output
+
+# What a link's driver keeps for a computer that does not read it; a second of telemetry is about 3 kB.
+MOST_BYTES_WAITING = 65_536
+
+
+class Computer:
+    """What runs agent `uid`.
+
+    Attributes:
+        agent: another one once the computer has gone out.
+    """
+
+    def __init__(self, agent: Agent, radio: Radio) -> None:
+        self.agent = agent
+        self.radio = radio
+        self._out = False
+        self._telemetry = b""
+        self._backlog = 0  # frames that came while it stood still
+
+    def think(self, cue: Cue, now_s: float) -> Output:
+        """One tick of the agent: what it says has been sent.
+
+        Raises:
+            RuntimeError: the inbox is not what was sent to it.
+        """
+        if self._out:
+            self._out, self.agent = False, self.agent.begun_anew()
+        self._check_inbox(cue, now_s)
+        order = Order(mission_tick=cue.mission_tick, come_home=cue.come_home, explain=cue.explain)
+        telemetry, self._telemetry, self._backlog = self._telemetry, b"", 0
+        output = self.agent.tick(now_s, order, cue.sightings, self.radio.drain(now_s), telemetry)
+        if output.frame is not None:
+            self.radio.send(output.frame)
+        return output
+
+    def stand_still(self) -> Output:
+        """A tick in which nothing runs: what arrives waits."""
+        self._backlog = self.radio.waiting
+        return self._nothing()
+
+    def go_out(self) -> Output:
+        """A tick without power: what arrives is gone, and so is all that the agent knew."""
+        self._out = True
+        self._telemetry, self._backlog = b"", 0
+        self.radio.forget()
+        return self._nothing()
+
+    def take(self, telemetry: bytes) -> None:
+        """Bytes from the vehicle, for the next tick."""
+        if not self._out:
+            self._telemetry = (self._telemetry + telemetry)[:MOST_BYTES_WAITING]
+
+    def _check_inbox(self, cue: Cue, now_s: float) -> None:
+        if cue.frames is None:
+            return
+        due = min(self._backlog + cue.frames, MAX_WAITING)
+        if self.radio.waiting != due:
+            got = f"{self.radio.waiting} frames arrived of {due}"
+            raise RuntimeError(f"lockstep broken at {now_s:.1f} s, agent {self.agent.uid}: {got}")
+
+    def _nothing(self) -> Output:
+        return Output(None, b"", AgentStatus(uid=self.agent.uid, activity=Activity.LOST))
