@@ -124,7 +124,7 @@ def _no_message(request: Request[Copter], message_id: int, result: Result) -> Re
 
 
 def _reposition(request: Request[Copter]) -> Result:
-    """Only as COMMAND_INT (recorded). Parameter 2, bit 1: change to GUIDED for it."""
+    """Only as COMMAND_INT (recorded). Parameter 2, bit 1: change to GUIDED for it. It ends a takeoff."""
     pilot, item = request.pilot, request.item
     if request.frame is None:
         return Result.UNSUPPORTED
@@ -132,11 +132,11 @@ def _reposition(request: Request[Copter]) -> Result:
         return Result.DENIED
     if item is None or not (item.x or item.y):
         return Result.DENIED
-    if not pilot.set_mode(Mode.GUIDED):
-        return Result.FAILED
     goal_ned_m = pilot.guidance.steering.ned_from_item(item)
-    pilot.guidance.follow(Setpoint(position_ned_m=goal_ned_m), pilot.now_s)
-    return Result.ACCEPTED
+    if not pilot.fence.allows(pilot, goal_ned_m) or not pilot.set_mode(Mode.GUIDED):
+        return Result.FAILED
+    pilot.guidance.end_takeoff()
+    return _done(pilot.follow(Setpoint(position_ned_m=goal_ned_m)))
 
 
 def _condition_yaw(request: Request[Copter]) -> Result:

@@ -70,11 +70,11 @@ class Copter(Autopilot):
             self.say(WARNING, f"No such mode {number}")
             return False
         mode = Mode(number)
+        if mode is self.mode:
+            return True
         if self.armed and MODES[mode].needs_position and not self.has_position:
             self.say(WARNING, f"Mode change to {mode.name} failed: requires position")
             return False
-        if mode is self.mode:
-            return True
         if not self.guidance.can_enter(mode, armed=self.armed, flying=self.flying):
             self.say(WARNING, f"Mode change to {mode.name} failed: init failed")
             return False
@@ -116,10 +116,10 @@ class Copter(Autopilot):
         return True
 
     def take_off(self, altitude_m: float, *, navigates: bool = True) -> bool:
-        """Take off to `altitude_m` above home. Only armed, on the ground, in a mode for it, and to a sane altitude."""
+        """Take off to `altitude_m` above home. Only armed, on the ground, in a mode for it, and up to a sane one."""
         able = MODES[self.mode].takes_off and (MODES[self.mode].needs_position or not navigates)
         ready = self.armed and able and not self.flying and not self.guidance.taking_off
-        if not ready or not 0.0 < altitude_m <= HIGHEST_TAKEOFF_M:  # NaN compares false
+        if not ready or not self.steering.height_m < altitude_m <= HIGHEST_TAKEOFF_M:  # NaN compares false
             return False
         self.guidance.take_off(altitude_m, self.now_s)
         return True
@@ -160,8 +160,14 @@ class Copter(Autopilot):
         if self.mode is not Mode.GUIDED or not all(abs(x) <= FURTHEST_M for x in goal):
             return False
         north_m, east_m, _ = steering.place_ned_m
-        self.guidance.follow(Setpoint(position_ned_m=goal if there else (north_m, east_m, goal[2])), self.now_s)
-        return True
+        return self.follow(Setpoint(position_ned_m=goal if there else (north_m, east_m, goal[2])))
+
+    def follow(self, setpoint: Setpoint) -> bool:
+        """Fly a setpoint of GUIDED, unless it leads beyond the fence."""
+        allowed = setpoint.position_ned_m is None or self.fence.allows(self, setpoint.position_ned_m)
+        if allowed:
+            self.guidance.follow(setpoint, self.now_s)
+        return allowed
 
     def hear_gcs(self) -> None:
         """A heartbeat of the ground station that the failsafe counts."""

@@ -80,6 +80,10 @@ class CopterGuidance(Guidance):
         self.steering.throttle_up = True
         self._takeoff = Takeoff(self.steering, down_m=down_m, now_s=now_s)
 
+    def end_takeoff(self) -> None:
+        """No further up: something else is flown from here on."""
+        self._takeoff = None
+
     def follow(self, setpoint: Setpoint, now_s: float) -> None:
         """A GUIDED setpoint. On the ground and during a takeoff it is ignored, as ArduCopter does."""
         if (guided := self._listening) is not None:

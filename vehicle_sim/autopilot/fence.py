@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from enum import IntFlag
+from math import hypot
 from typing import TYPE_CHECKING
 
+from comms.frames import Vec3
 from vehicle_sim.autopilot.actions import Action, act
 from vehicle_sim.autopilot.modes import Mode
 from vehicle_sim.autopilot.outline import Outline, outline
@@ -15,6 +17,7 @@ from vehicle_sim.autopilot.severity import NOTICE
 if TYPE_CHECKING:
     from vehicle_sim.autopilot.copter import Copter
 
+NO_DEPTH_M = 0.01  # how far a place is inside or outside a polygon: nobody measures
 GIVE_UP_M = 100.0  # further out than this it lands where it is
 AGAIN_M = 20.0  # further out, and a breach counts again ...
 RECOVERY_S = 10.0  # ... unless the mode was changed this short ago: somebody is at it
@@ -61,23 +64,34 @@ class Fence:
         self.breaches = 0
         self.breached_at_s = 0.0
 
+    def allows(self, pilot: Copter, place_ned_m: Vec3) -> bool:
+        """Whether a place is on the right side of all borders that are switched on."""
+        return all(out_m <= 0.0 for out_m in self._out_m(pilot, place_ned_m).values())
+
     def beyond_m(self, pilot: Copter) -> dict[Border, float]:
-        """How far it is beyond each border that is switched on (a polygon: 0); only those that it is beyond."""
-        steering, parameters = pilot.guidance.steering, pilot.parameters
-        if not parameters["FENCE_ENABLE"] or not pilot.has_position:
+        """How far it is beyond each border that is switched on; only those that it is beyond."""
+        out_m = self._out_m(pilot, pilot.steering.place_ned_m) if pilot.has_position else {}
+        return {border: beyond_m for border, beyond_m in out_m.items() if beyond_m >= 0.0}
+
+    def _out_m(self, pilot: Copter, place_ned_m: Vec3) -> dict[Border, float]:
+        """How far a place is beyond each border that is switched on; negative: inside. A polygon has no depth."""
+        parameters = pilot.parameters
+        if not parameters["FENCE_ENABLE"]:
             return {}
         if self._version != self._store.version:
             self._version = self._store.version
-            self._outline = outline(self._store.items, steering.ned_from_item)
-        north_m, east_m, _ = steering.place_ned_m
-        beyond = {
-            Border.ALT_MAX: steering.height_m - parameters["FENCE_ALT_MAX"],
-            Border.CIRCLE: steering.distance_m(steering.home_ned_m) - parameters["FENCE_RADIUS"],
-            Border.POLYGON: -1.0 if self._outline.allows(north_m, east_m) else 0.0,
-            Border.ALT_MIN: parameters["FENCE_ALT_MIN"] - steering.height_m,
+            self._outline = outline(self._store.items, pilot.steering.ned_from_item)
+        north_m, east_m, down_m = place_ned_m
+        home_north_m, home_east_m, home_down_m = pilot.steering.home_ned_m
+        height_m = home_down_m - down_m
+        out_m = {
+            Border.ALT_MAX: height_m - parameters["FENCE_ALT_MAX"],
+            Border.CIRCLE: hypot(north_m - home_north_m, east_m - home_east_m) - parameters["FENCE_RADIUS"],
+            Border.POLYGON: -NO_DEPTH_M if self._outline.allows(north_m, east_m) else NO_DEPTH_M,
+            Border.ALT_MIN: parameters["FENCE_ALT_MIN"] - height_m,
         }
         switched_on = int(parameters["FENCE_TYPE"])
-        return {border: out_m for border, out_m in beyond.items() if border & switched_on and out_m >= 0.0}
+        return {border: beyond_m for border, beyond_m in out_m.items() if border & switched_on}
 
     def watch(self, pilot: Copter) -> None:
         """Look once: say and do what a new crossing asks for, and say when it is over."""

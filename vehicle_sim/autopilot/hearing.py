@@ -21,11 +21,11 @@ def heartbeat(pilot: Copter, message: Any) -> None:
 def local_target(pilot: Copter, message: Any) -> None:
     belief = pilot.estimate
     position = (belief.north_m, belief.east_m, belief.down_m)
-    pilot.guidance.follow(local_setpoint(message, position_ned_m=position, yaw_rad=belief.yaw_rad), pilot.now_s)
+    pilot.follow(local_setpoint(message, position_ned_m=position, yaw_rad=belief.yaw_rad))
 
 
 def global_target(pilot: Copter, message: Any) -> None:
-    pilot.guidance.follow(global_setpoint(message, origin=pilot.origin, home=pilot.home), pilot.now_s)
+    pilot.follow(global_setpoint(message, origin=pilot.origin, home=pilot.home))
 
 
 def attitude(pilot: Copter, message: Any) -> None:

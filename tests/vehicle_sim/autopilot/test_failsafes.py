@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
-from tests.vehicle_sim.autopilot.ground_station import GUIDED, LAND, GroundStation, flying, ready, velocity
+from tests.vehicle_sim.autopilot.ground_station import GUIDED, LAND, RTL, GroundStation, flying, ready, velocity
 from tests.vehicle_sim.autopilot.test_estimate import set_params
 
 CRITICAL = 5  # HEARTBEAT.system_status
@@ -70,6 +70,8 @@ def test_the_ekf_failsafe_can_be_switched_off() -> None:
     set_params(station, FS_EKF_THRESH=0.0, SIM_GPS_DISABLE=1.0)
     station.tick(seconds=12.0)
     assert station.vehicle.mode_name == "GUIDED"
+    assert station.order(176, 1, GUIDED) == 0  # it is there already, position or not
+    assert station.order(176, 1, RTL) == 4
 
 
 @pytest.mark.parametrize(

@@ -44,6 +44,18 @@ def mode_after(station: GroundStation, *, north: float = 5.0, down: float = 0.0,
     return int(station.last("HEARTBEAT").custom_mode)
 
 
+def test_a_place_beyond_a_fence_is_not_flown_to() -> None:
+    station = flying()
+    assert upload(station, tuple(at(*corner, 0.0, 5001, param1=4.0) for corner in SQUARE), kind=1) == 0
+    fenced(station, FENCE_TYPE=7, FENCE_ALT_MAX=20, FENCE_RADIUS=100)
+    station.tick(position(10.0, 0.0, -10.0), seconds=8.0)
+    for beyond in (position(40.0, 0.0, -10.0), position(10.0, 0.0, -25.0)):
+        station.tick(beyond, seconds=8.0)
+        assert station.vehicle.truth.position_ned_m == pytest.approx((10.0, 0.0, -10.0), abs=0.2)
+    station.tick(position(20.0, 0.0, -15.0), seconds=15.0)
+    assert station.vehicle.truth.position_ned_m[0] == pytest.approx(20.0, abs=0.2)
+
+
 @pytest.mark.parametrize(
     ("parameters", "mode", "text"),
     [

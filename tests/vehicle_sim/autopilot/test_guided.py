@@ -73,6 +73,16 @@ def test_setpoints_on_the_ground_and_during_takeoff_are_ignored() -> None:
     assert height_m(station) > 2.0
 
 
+def test_a_takeoff_leads_up_wherever_home_is() -> None:
+    station = ready()
+    station.order(400, 1)
+    assert station.order(179, 0, 0, 0, 0, HOME.latitude_deg, HOME.longitude_deg, HOME.altitude_m - 5.0) == 0
+    assert station.order(22, 0, 0, 0, 0, 0, 0, 4.9) == 4
+    assert station.order(22, 0, 0, 0, 0, 0, 0, 8.0) == 0
+    station.tick(seconds=8.0)
+    assert height_m(station) == pytest.approx(3.0, abs=0.1)
+
+
 def test_a_setpoint_acts_from_the_beginning_of_its_tick() -> None:
     station = flying(VehicleConfig(kind="ideal"))
     before = station.vehicle.truth.position_ned_m

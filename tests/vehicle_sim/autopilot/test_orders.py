@@ -70,6 +70,27 @@ def test_reposition_to_nowhere_is_denied(wrong: dict[str, Any]) -> None:
     assert place(station) == pytest.approx((0.0, 0.0, -10.0), abs=0.2)
 
 
+def test_reposition_ends_a_takeoff_and_is_flown() -> None:
+    station = ready()
+    station.order(400, 1)
+    station.order(22, 0, 0, 0, 0, 0, 0, 40)
+    station.tick(seconds=5.0)
+    assert order_int(station, 192, -1, 0, z=15.0, **north_of_home(20.0)) == ACCEPTED
+    station.tick(seconds=20.0)
+    assert place(station) == pytest.approx((20.0, 0.0, -15.0), abs=0.2)
+
+
+def test_reposition_beyond_the_fence_fails_and_changes_nothing() -> None:
+    station = flying()
+    for name, value in (("FENCE_TYPE", 3), ("FENCE_RADIUS", 50), ("FENCE_ALT_MAX", 20), ("FENCE_ENABLE", 1)):
+        station.tick(dialect.MAVLink_param_set_message(3, 1, name.encode(), value, 9))
+    station.order(176, 1, RTL)
+    assert order_int(station, 192, -1, CHANGE_MODE, z=10.0, **north_of_home(60.0)) == FAILED
+    assert order_int(station, 192, -1, CHANGE_MODE, z=21.0, **north_of_home(5.0)) == FAILED
+    assert station.last("HEARTBEAT").custom_mode == RTL
+    assert order_int(station, 192, -1, CHANGE_MODE, z=20.0, **north_of_home(5.0)) == ACCEPTED
+
+
 def test_reposition_as_a_long_command_is_unknown_as_recorded() -> None:
     assert flying().order(192, -1, 1, 0, 0, HOME.latitude_deg, HOME.longitude_deg, 10) == UNSUPPORTED
 

@@ -81,12 +81,13 @@ def test_ground_station_lost_gps_lost_motors_off() -> None:
     """Seconds of the recording's boot clock: the last heartbeat of the ground station was 5 s before its failsafe.
 
     Between them it was in LAND twice, for 2.0 and 2.5 s, and never sank: a failsafe's landing begins with a pause.
+    GUIDED was asked for at 84.23, just after the change to LAND; here that takes a tick or two more.
     """
     began_s = 69.0
     beat = dialect.MAVLink_heartbeat_message(6, 8, 0, 0, 4, 3)
     orders = [
         (69.0, parameter("FS_GCS_ENABLE", 5)), (69.0, beat), (75.0, beat), (76.1, parameter("FS_GCS_ENABLE", 0)),
-        (76.1, order(176, 1, GUIDED)), (76.1, parameter("SIM_GPS_DISABLE", 1)), (84.2, order(176, 1, GUIDED)),
+        (76.1, order(176, 1, GUIDED)), (76.1, parameter("SIM_GPS_DISABLE", 1)), (84.4, order(176, 1, GUIDED)),
         (85.2, parameter("SIM_GPS_DISABLE", 0)), (85.7, order(176, 1, GUIDED)), (86.7, order(176, 1, GUIDED)),
         (87.7, order(400, 0, 21196)),
     ]  # fmt: skip
