@@ -1,69 +1,169 @@
-"""The progress bar of a flight, for people at a terminal; elsewhere it is silent."""
+"""How a flight goes, while it goes: a live panel on a terminal, a line now and then elsewhere."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from time import monotonic
 from types import TracebackType
+from typing import Protocol
 
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.live import Live
 
-from comms.status import Activity
-from missions.observation import Observation, Phase
+from missions.metrics import Metrics
+from missions.observation import Observation, Observer, Phase
+from missions.panel import Vitals, line_of, panel_of
 
-_SHOWN_EVERY_TICKS = 10
+_REDRAWN_EVERY_S = 0.2  # of wall time
+_LINES = 8  # in a mission, where there is no terminal
+_SLICES = 40  # of the mission, whose coverage is shown
 
 
-class ProgressBar:
-    """An observer that shows the phase, how far the mission is, and what is seen."""
+class Progress(Observer, Protocol):
+    """Shows a flight from within a `with`."""
 
-    def __init__(self, console: Console, *, duration_s: float, tick_s: float) -> None:
-        self._progress = Progress(
-            TextColumn("{task.description:<9}"),
-            BarColumn(),
-            TextColumn("{task.fields[state]}"),
-            TimeRemainingColumn(),
-            console=console,
-            disable=not console.is_terminal,
+    def __enter__(self) -> Progress: ...
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None: ...
+
+
+def progress_on(console: Console, *, title: str, duration_s: float, tick_s: float, metrics: Metrics) -> Progress:
+    """What fits this console.
+
+    Args:
+        metrics: the mission's, which have seen every tick before this is told of it.
+    """
+    pulse = Pulse(title=title, duration_s=duration_s, tick_s=tick_s, metrics=metrics)
+    return LivePanel(console, pulse) if console.is_terminal else Lines(console, pulse)
+
+
+class Pulse:
+    """Keeps what a panel shows beyond the last tick: coverage so far, and how fast it goes."""
+
+    def __init__(
+        self,
+        *,
+        title: str,
+        duration_s: float,
+        tick_s: float,
+        metrics: Metrics,
+        wall_s: Callable[[], float] = monotonic,
+    ) -> None:
+        self.duration_s = duration_s
+        self._title, self._tick_s, self._metrics, self._wall_s = title, tick_s, metrics, wall_s
+        self._began_wall_s = wall_s()
+        self._mission_began: tuple[float, float] | None = None  # mission clock, wall clock
+        self._slices: list[tuple[int, int]] = []  # targets seen and present, summed
+        self._done_s = 0.0
+        self._mean: float | None = None
+
+    def observe(self, observation: Observation) -> None:
+        """Take in one tick."""
+        if observation.mission_tick is None:
+            return
+        if self._mission_began is None:
+            self._mission_began = observation.time_s, self._wall_s()
+        self._done_s = (observation.mission_tick + 1) * self._tick_s
+        self._mean = observation.coverage_mean
+        place = min(_SLICES - 1, int(_SLICES * observation.mission_tick * self._tick_s / self.duration_s))
+        self._slices += [(0, 0)] * (place + 1 - len(self._slices))
+        seen, present = self._slices[place]
+        self._slices[place] = seen + _seen(observation), present + _present(observation)
+
+    def vitals(self, observation: Observation) -> Vitals:
+        """What to show of this tick."""
+        wall_s = self._wall_s() - self._began_wall_s
+        return Vitals(
+            title=self._title,
+            phase=observation.phase,
+            done_s=self._done_s,
+            duration_s=self.duration_s,
+            activities=[status.activity for status in observation.statuses],
+            seen=_seen(observation),
+            present=_present(observation),
+            coverage=self._mean,
+            history=[seen / present if present else None for seen, present in self._slices],
+            losses=self._metrics.events.target_loss,
+            calls=len({call.target for status in observation.statuses for call in status.calls}),
+            helpers=sum(status.helping is not None for status in observation.statuses),
+            faults=len(self._metrics.faults),
+            realtime_factor=observation.time_s / wall_s if wall_s > 0 else None,
+            left_s=self._left_s(observation),
+            late_s=observation.tick_late_s,
         )
-        self._task = self._progress.add_task("prepare", total=duration_s, state="")
-        self._tick_s = tick_s
-        self._returning = False
 
-    def __enter__(self) -> ProgressBar:
-        self._progress.start()
+    def _left_s(self, observation: Observation) -> float | None:
+        """Wall time until the end of MISSION, at the pace it has had so far."""
+        if observation.phase is not Phase.MISSION or self._mission_began is None:
+            return None
+        began_s, began_wall_s = self._mission_began
+        flown_s, took_s = observation.time_s - began_s, self._wall_s() - began_wall_s
+        return (self.duration_s - self._done_s) * took_s / flown_s if flown_s > 0 else None
+
+
+class LivePanel:
+    """A panel that is drawn anew several times a second, and stays as it was at the end."""
+
+    def __init__(self, console: Console, pulse: Pulse) -> None:
+        self._live = Live(console=console, auto_refresh=False)
+        self._pulse = pulse
+        self._last: Observation | None = None
+        self._drawn_wall_s = 0.0
+
+    def __enter__(self) -> LivePanel:
+        self._live.start()
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._progress.stop()
+        if self._last is not None:
+            self._draw(self._last)
+        self._live.stop()
 
     def observe(self, observation: Observation) -> None:
-        """Show one tick in ten."""
-        if observation.tick % _SHOWN_EVERY_TICKS or self._progress.disable:
-            return
-        if observation.mission_tick is not None:
-            done_s = (observation.mission_tick + 1) * self._tick_s
-            self._progress.update(
-                self._task, description="mission", completed=done_s, state=f"{done_s:5.0f} s  {_seen(observation)}"
-            )
-        else:
-            if observation.phase is Phase.RETURN and not self._returning:
-                self._returning = True
-                self._progress.reset(self._task, total=None)  # nobody knows how long it takes
-            self._progress.update(self._task, description=observation.phase.value, state=_waiting_for(observation))
+        """Draw one tick, unless another was drawn just now."""
+        self._pulse.observe(observation)
+        self._last = observation
+        if monotonic() - self._drawn_wall_s >= _REDRAWN_EVERY_S:
+            self._draw(observation)
+
+    def _draw(self, observation: Observation) -> None:
+        self._drawn_wall_s = monotonic()
+        self._live.update(panel_of(self._pulse.vitals(observation)), refresh=True)
 
 
-def _seen(observation: Observation) -> str:
-    seen = sum(target.seen for target in observation.targets)
-    present = sum(target.present for target in observation.targets)
-    mean = observation.coverage_mean
-    return f"{seen}/{present} seen" + ("" if mean is None else f", {mean:.1%} so far")
+class Lines:
+    """A line when a phase begins, and some in the course of a mission."""
+
+    def __init__(self, console: Console, pulse: Pulse) -> None:
+        self._console = console
+        self._pulse = pulse
+        self._phase: Phase | None = None
+        self._told = 0
+
+    def __enter__(self) -> Lines:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None: ...
+
+    def observe(self, observation: Observation) -> None:
+        """Print one tick, if it is time to."""
+        self._pulse.observe(observation)
+        vitals = self._pulse.vitals(observation)
+        part = int(_LINES * vitals.done_s / vitals.duration_s)
+        if observation.phase is not self._phase or part > self._told:
+            self._phase, self._told = observation.phase, part
+            self._console.print(line_of(vitals), markup=False, highlight=False, soft_wrap=True)
 
 
-def _waiting_for(observation: Observation) -> str:
-    landed = sum(status.activity is Activity.LANDED for status in observation.statuses)
-    if observation.phase is Phase.RETURN:
-        return f"{landed}/{len(observation.statuses)} landed"
-    up = sum(truth.position_m[2] > 1.0 for truth in observation.truths)
-    return f"{up}/{len(observation.truths)} off the ground"
+def _seen(observation: Observation) -> int:
+    return sum(target.seen for target in observation.targets)
+
+
+def _present(observation: Observation) -> int:
+    return sum(target.present for target in observation.targets)
