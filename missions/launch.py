@@ -27,7 +27,7 @@ from missions.observation import Observer
 from missions.options import LaunchOptions
 from missions.plan import coverage_floor
 from missions.problems import InputError, OutputError
-from missions.progress import ProgressBar
+from missions.progress import progress_on
 from missions.report import PACKAGES, as_json, as_table, make_report, versions
 from missions.tlog import tlogs
 from vehicle_sim.autopilot import SimulatedVehicle
@@ -113,8 +113,14 @@ def _fly(flight: Flight, metrics: Metrics, request: StopRequest, console: Consol
                 raise InputError(str(error)) from error
             observers.append(recorder)
             flight.side.explain_every_s = EXPLAIN_EVERY_S
-        bar = ProgressBar(console, duration_s=mission.duration_s, tick_s=mission.tick_s)
-        observers.append(stack.enter_context(bar))
+        progress = progress_on(
+            console,
+            title=f"{mission.name}, seed {mission.seed}",
+            duration_s=mission.duration_s,
+            tick_s=mission.tick_s,
+            metrics=metrics,
+        )
+        observers.append(stack.enter_context(progress))
         try:
             flight.run(pace=_pace(mission, options), observers=observers, stop=lambda: request.asked)
         finally:

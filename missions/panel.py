@@ -18,6 +18,7 @@ from missions.observation import Phase
 
 _BLOCKS = "▁▂▃▄▅▆▇█"
 _BAR_COLUMNS = 40
+_WIDTH = 84
 _GOOD, _BAD, _WARN = (
     hex_color(ACTIVITY_COLORS[activity]) for activity in (Activity.FOLLOW, Activity.LOST, Activity.CALLING)
 )
@@ -28,11 +29,11 @@ class Vitals:
     """What the panel shows of a mission at one moment.
 
     Attributes:
-        done_s, duration_s: of MISSION. history: coverage in equal slices of MISSION so far, None where nothing was there.
+        done_s, duration_s: of MISSION. history: coverage in equal slices of MISSION so far, None where none was there.
         activities: what each agent does, by uid. seen, present: targets now. coverage: mean so far.
         losses, calls, helpers: target losses so far; calls that are out now, and agents on their way.
         faults: so far. realtime_factor: mission seconds a second. left_s: wall time to the end of MISSION, if known.
-        landed: agents on the ground. late_s: how late the last tick began.
+        late_s: how late the last tick began.
     """
 
     title: str
@@ -63,7 +64,7 @@ def panel_of(vitals: Vitals) -> RenderableType:
     table.add_row("agents", _agents(vitals))
     table.add_row("targets", _targets(vitals))
     table.add_row("speed", _speed(vitals))
-    return Panel(table, title=Text(vitals.title, "bold"), title_align="left", border_style="dim", expand=False)
+    return Panel(table, title=Text(vitals.title, "bold"), title_align="left", border_style="dim", width=_WIDTH)
 
 
 def line_of(vitals: Vitals) -> str:
@@ -113,11 +114,13 @@ def _agents(vitals: Vitals) -> Group:
 
 
 def _targets(vitals: Vitals) -> Text:
-    everything = vitals.seen == vitals.present
+    lost = Text(f"{vitals.losses} lost so far", _BAD if vitals.losses else "dim")
+    if vitals.phase is not Phase.MISSION:
+        return lost
     return Text.assemble(
-        (f"{vitals.seen} of {vitals.present} seen", _GOOD if everything else ""),
+        (f"{vitals.seen} of {vitals.present} seen", _GOOD if vitals.seen == vitals.present else ""),
         "   ",
-        (f"{vitals.losses} lost so far", _BAD if vitals.losses else "dim"),
+        lost,
         "   ",
         (f"{vitals.calls} called for", _WARN if vitals.calls else "dim"),
         "   ",

@@ -40,7 +40,11 @@ def progress_on(console: Console, *, title: str, duration_s: float, tick_s: floa
 
 
 class Pulse:
-    """Keeps what a panel shows beyond the last tick: coverage so far, and how fast it goes."""
+    """Keeps what a panel shows beyond the last tick: coverage so far, and how fast it goes.
+
+    Attributes:
+        done_s, duration_s: of MISSION.
+    """
 
     def __init__(
         self,
@@ -56,7 +60,7 @@ class Pulse:
         self._began_wall_s = wall_s()
         self._mission_began: tuple[float, float] | None = None  # mission clock, wall clock
         self._slices: list[tuple[int, int]] = []  # targets seen and present, summed
-        self._done_s = 0.0
+        self.done_s = 0.0
         self._mean: float | None = None
 
     def observe(self, observation: Observation) -> None:
@@ -65,7 +69,7 @@ class Pulse:
             return
         if self._mission_began is None:
             self._mission_began = observation.time_s, self._wall_s()
-        self._done_s = (observation.mission_tick + 1) * self._tick_s
+        self.done_s = (observation.mission_tick + 1) * self._tick_s
         self._mean = observation.coverage_mean
         place = min(_SLICES - 1, int(_SLICES * observation.mission_tick * self._tick_s / self.duration_s))
         self._slices += [(0, 0)] * (place + 1 - len(self._slices))
@@ -78,7 +82,7 @@ class Pulse:
         return Vitals(
             title=self._title,
             phase=observation.phase,
-            done_s=self._done_s,
+            done_s=self.done_s,
             duration_s=self.duration_s,
             activities=[status.activity for status in observation.statuses],
             seen=_seen(observation),
@@ -100,7 +104,7 @@ class Pulse:
             return None
         began_s, began_wall_s = self._mission_began
         flown_s, took_s = observation.time_s - began_s, self._wall_s() - began_wall_s
-        return (self.duration_s - self._done_s) * took_s / flown_s if flown_s > 0 else None
+        return (self.duration_s - self.done_s) * took_s / flown_s if flown_s > 0 else None
 
 
 class LivePanel:
@@ -154,11 +158,11 @@ class Lines:
     def observe(self, observation: Observation) -> None:
         """Print one tick, if it is time to."""
         self._pulse.observe(observation)
-        vitals = self._pulse.vitals(observation)
-        part = int(_LINES * vitals.done_s / vitals.duration_s)
+        part = int(_LINES * self._pulse.done_s / self._pulse.duration_s)
         if observation.phase is not self._phase or part > self._told:
             self._phase, self._told = observation.phase, part
-            self._console.print(line_of(vitals), markup=False, highlight=False, soft_wrap=True)
+            line = line_of(self._pulse.vitals(observation))
+            self._console.print(line, markup=False, highlight=False, soft_wrap=True)
 
 
 def _seen(observation: Observation) -> int:
