@@ -36,12 +36,12 @@ class SimOptions:
     """One vehicle and its links.
 
     Attributes:
-        links: URLs of `comms.transport`. key: what all of them are signed with, if they are.
+        links: what asked for each, and its URL of `comms.transport`. key: what all are signed with, if they are.
         heading_deg: clockwise from north. speed: times real time.
         boot_s: from power-on to armable. parameters: (name, value) to set at power-on.
     """
 
-    links: tuple[str, ...]
+    links: tuple[tuple[str, str], ...]
     key: bytes | None = None
     flavour: FlavorName
     system_id: int
@@ -97,7 +97,10 @@ def sim_options(given: argparse.Namespace) -> SimOptions:
     home, heading_deg = given.home
     port = SITL_PORT if given.port is None and not given.link else given.port
     return SimOptions(
-        links=(*(() if port is None else (f"tcpin:127.0.0.1:{port}",)), *given.link),
+        links=(
+            *(() if port is None else (("--port", f"tcpin:127.0.0.1:{port}"),)),
+            *(("--link", url) for url in given.link),
+        ),
         key=given.signing_key,
         flavour=given.flavour,
         system_id=given.sysid,

@@ -34,8 +34,8 @@ def simulate(options: SimOptions) -> int:
         before = signal.signal(signal.SIGTERM, signal.default_int_handler)
         stack.callback(signal.signal, signal.SIGTERM, before)
         links = [
-            stack.enter_context(open_ground_link(url, [vehicle], option="--link", key=options.key))
-            for url in options.links
+            stack.enter_context(open_ground_link(url, [vehicle], option=option, key=options.key))
+            for option, url in options.links
         ]
         _tell(f"{options.flavour} vehicle {options.system_id} on {', '.join(link.url for link in links)}")
         with suppress(KeyboardInterrupt):
