@@ -12,6 +12,8 @@ from missions.sides.exchange import Done
 # A preparation or a return that takes longer than this has gone wrong, whatever the pilots say.
 PREPARE_LIMIT_S = 600.0
 RETURN_LIMIT_S = 1800.0
+# Vehicles that persons fly are waited for so long when all others are down: time to land one, or to give it back.
+PERSONS_LIMIT_S = 60.0
 # Between the last agent's arrival on its layer and the mission: an autopilot that is still ending its climb does not
 # follow yet.
 SETTLE_S = 2.0
@@ -38,6 +40,8 @@ class Phases:
         self._duration_ticks = max(1, round(duration_s / tick_s))
         self._stopped = False
         self._ready_since: int | None = None
+        self._persons_since: int | None = None
+        self._left_to_persons: tuple[int, ...] = ()
         self._mission_began: int | None = None
 
     @property
@@ -54,9 +58,9 @@ class Phases:
         return None if self._mission_began is None else tick - self._mission_began
 
     def announcement(self, tick: int) -> tuple[Event, ...]:
-        """What is to be said in this tick: that a phase begins, if one does, and that it does so too early."""
+        """What is to be said in this tick: that a phase begins, if one does, and that one ends too early."""
         if tick != self.began:
-            return ()
+            return tuple(Event(Level.ERROR, f"ends while a person flies A{uid}") for uid in self._left_to_persons)
         begins = Event(Level.INFO, _ANNOUNCED[self.now])
         if not self._stopped:
             return (begins,)
@@ -78,7 +82,9 @@ class Phases:
         in_phase_s = floor((next_tick - self.began) * self._tick_s)
         nobody_left = all(_has_ended(done) for done in dones)
         if self.now is Phase.RETURN:
-            return Phase.DONE if nobody_left or in_phase_s >= RETURN_LIMIT_S else Phase.RETURN
+            over = nobody_left or self._left_to_persons or in_phase_s >= RETURN_LIMIT_S
+            self._leave_to_persons(next_tick, dones)
+            return Phase.DONE if over else Phase.RETURN
         if stop:
             return Phase.RETURN
         if self.now is Phase.PREPARE:
@@ -88,6 +94,17 @@ class Phases:
                 return Phase.RETURN
             return Phase.MISSION if self._settled(next_tick, waiting) else Phase.PREPARE
         return Phase.RETURN if self.complete or nobody_left else Phase.MISSION
+
+    def _leave_to_persons(self, tick: int, dones: Sequence[Done]) -> None:
+        """Note who is not waited for any longer; the tick that follows says so, and is the last."""
+        flying = [done.status for done in dones if not _has_ended(done)]
+        if not all(status.activity is Activity.TAKEN_OVER for status in flying):
+            self._persons_since = None
+            return
+        if self._persons_since is None:
+            self._persons_since = tick
+        if (tick - self._persons_since) * self._tick_s >= PERSONS_LIMIT_S:
+            self._left_to_persons = tuple(status.uid for status in flying)
 
     def _settled(self, tick: int, waiting: Sequence[Done]) -> bool:
         if not all(done.ready for done in waiting):

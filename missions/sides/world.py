@@ -8,6 +8,7 @@ from typing import Protocol
 from comms.clock import Pace
 from comms.messages import Sighting
 from comms.session import Bus
+from comms.status import Activity
 from missions import compose
 from missions.coverage import Coverage
 from missions.faults.schedule import Schedule
@@ -85,7 +86,8 @@ class WorldSide:
         else:
             velocities = [done.truth.velocity_m_s[:2] for done in self.dones]
             ills = self._faults.at(fault_tick)
-            watching = [None if ills.stopped(uid) else place for uid, place in enumerate(self._aloft())]
+            lost = [done.status.activity is Activity.LOST for done in self.dones]  # who knows where they are?
+            watching = [None if lost[uid] or ills.stopped(uid) else place for uid, place in enumerate(self._aloft())]
             sightings = self.world.sense(mission_tick, watching, velocities, ills.identity_errors)
         return [
             Cue(

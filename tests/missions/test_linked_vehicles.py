@@ -26,6 +26,7 @@ from missions.observation import Observation, Observer, Phase
 from missions.overrides import Override
 from missions.plan import plan_mission
 from missions.report import Report, make_report
+from missions.sides.phases import PERSONS_LIMIT_S
 from tests.missions.test_pilot_flies_vehicle import mode_command
 from vehicle_sim.autopilot import SimulatedVehicle
 from vehicle_sim.vehicle import VehicleConfig
@@ -174,6 +175,34 @@ def test_a_link_that_stays_broken_does_not_hold_up_the_others() -> None:
     assert flight.complete
     assert [status.activity for status in log.all[-1].statuses] == [Activity.LOST, Activity.LANDED]
     assert log.all[-1].time_s < 150.0
+
+
+def test_nobody_watches_from_where_it_was_heard_last() -> None:
+    mission = mission_of("targets.speed_m_s=0.1")
+    pipes = {uid: Pipe(7 + uid, 5.0 - 10.0 * uid, mission) for uid in range(2)}
+
+    def unplug(_: float) -> None:
+        for pipe in pipes.values():
+            pipe.connected = False
+
+    _, log, _ = fly(mission, pipes, Gremlin(50, unplug))
+    flown = [o for o in log.all if o.mission_tick is not None]
+    lost = [all(status.activity is Activity.LOST for status in o.statuses) for o in flown]
+    assert flown[lost.index(True) - 1].coverage == 1.0
+    assert {o.coverage for o in flown[lost.index(True) + 1 :]} == {0.0}
+
+
+def test_vehicles_that_persons_fly_at_the_end_are_left_to_them() -> None:
+    mission = mission_of()
+    pipes = {0: Pipe(7, 5.0, mission), 1: Pipe(120, -5.0, mission)}
+    flight, log, report = fly(
+        mission, pipes, Gremlin(100, lambda _: pipes[1].station.send(mode_command(17, system_id=120)))
+    )
+    assert flight.complete
+    assert [status.activity for status in log.all[-1].statuses] == [Activity.LANDED, Activity.TAKEN_OVER]
+    down_s = next(o.time_s for o in log.all if o.statuses[0].activity is Activity.LANDED)
+    assert log.all[-1].time_s - down_s == pytest.approx(PERSONS_LIMIT_S, abs=1.0)
+    assert report["faults"][-1]["what"] == "ends while a person flies A1"
 
 
 def test_some_vehicles_may_be_simulated() -> None:
