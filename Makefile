@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 PEERS := .venv-peers
 CLIENTS := .venv-clients
 
-.PHONY: run test test-slow test-clients fuzz check format bench bench-vehicles bench-peers clean
+.PHONY: run test test-slow test-clients fuzz check format bench bench-vehicles bench-recording bench-peers clean
 
 run: $(VENV)/ground.done
 	@mkdir -p out
@@ -41,6 +41,9 @@ bench: $(VENV)/all.done
 
 bench-vehicles: $(VENV)/all.done
 	$(BIN)/python -m tests.benchmarks.vehicles
+
+bench-recording: $(VENV)/all.done
+	$(BIN)/python -m tests.benchmarks.recording
 
 bench-peers: $(VENV)/all.done $(PEERS)/peers.done
 	$(PEERS)/bin/python -m tests.benchmarks.peers.run --study $(BIN)/python

@@ -36,8 +36,8 @@ if TYPE_CHECKING:
     from missions.recording import Recorder
 
 DONE, FAILED, STOPPED = 0, 1, 130
-# How often agents tell a recorder what they know.
-EXPLAIN_EVERY_S = 1.0
+# How often an agent tells a recorder what it knows; in a large swarm it takes longer until all have told.
+EXPLAIN_EVERY_S, EXPLAINED_A_S = 1.0, 25
 
 
 class StopRequest:
@@ -112,7 +112,7 @@ def _fly(flight: Flight, metrics: Metrics, request: StopRequest, console: Consol
             except OutputError as error:
                 raise InputError(str(error)) from error
             observers.append(recorder)
-            flight.side.explain_every_s = EXPLAIN_EVERY_S
+            flight.side.explain_every_s = explain_every_s(mission)
         progress = progress_on(
             console,
             title=f"{mission.name}, seed {mission.seed}",
@@ -175,6 +175,11 @@ def _transports(mission: Mission) -> Iterator[dict[int, Transport]]:
 
 def _pace(mission: Mission, options: LaunchOptions) -> Pace:
     return Lockstep() if isinf(options.speed) else RealTime(tick_s=mission.tick_s, speed=options.speed)
+
+
+def explain_every_s(mission: Mission) -> float:
+    """How often agents tell what they know, when somebody records."""
+    return max(EXPLAIN_EVERY_S, mission.agents.count / EXPLAINED_A_S)
 
 
 def recorder_of(mission: Mission, n_targets: int, options: LaunchOptions) -> Recorder:

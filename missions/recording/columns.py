@@ -32,13 +32,20 @@ class Layer(Protocol):
 
 
 def pieces(lines: npt.ArrayLike, colors: Colors | None, counts: Ints) -> rr.ComponentColumnList:
-    """Lines (..., P, 3) as columns of LineStrips3D; `counts` says how many belong to each row."""
+    """Lines (..., P, 3) of P points each as columns of LineStrips3D; `counts` says how many belong to each row."""
     points = np.asarray(lines, dtype=np.float32)
-    offsets = pa.array(np.arange(0, points[..., 0].size + 1, points.shape[-2], dtype=np.int32))
+    each = points.shape[-2]
+    return strips(points.reshape(-1, 3), np.full(points[..., 0].size // each, each), colors, counts)
+
+
+def strips(points: Floats, lengths: Ints, colors: Colors | None, counts: Ints) -> rr.ComponentColumnList:
+    """Lines of `lengths` points each, one after the other in `points` (P, 3), as columns of LineStrips3D."""
+    offsets = pa.array(np.concatenate(([0], np.cumsum(lengths))).astype(np.int32))
     arrow_type = rr.components.LineStrip3DBatch._ARROW_DATATYPE
-    vectors = rr.encodings.Vec3DBatch(points.reshape(-1, 3)).as_arrow_array()
-    strips = pa.ListArray.from_arrays(offsets, vectors, type=arrow_type)
-    columns: rr.ComponentColumnList = rr.LineStrips3D.columns(strips=strips, colors=colors)
+    vectors = rr.encodings.Vec3DBatch(points).as_arrow_array()
+    columns: rr.ComponentColumnList = rr.LineStrips3D.columns(
+        strips=pa.ListArray.from_arrays(offsets, vectors, type=arrow_type), colors=colors
+    )
     return columns.partition(counts)
 
 

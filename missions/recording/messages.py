@@ -16,7 +16,7 @@ _READER_ID = 255  # it never speaks: any id will do
 
 
 # Every vector of every vehicle is a row of its own: a large swarm's come less often.
-_STEP_S, _STEP_S_OF_AN_AGENT = 5.0, 0.5
+_STEP_S, _STEP_S_OF_AN_AGENT = 10.0, 0.5
 _KIND = slice(7, 10)  # of a MAVLink 2 frame: its message id
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from math import hypot
+from math import hypot, pi
 from typing import NamedTuple
 
 import numpy as np
@@ -15,14 +15,14 @@ from comms.status import Activity, AgentStatus
 from missions.observation import Observation, TargetTruth
 from missions.recording import palette
 from missions.recording.block import Block, Floats, stored
-from missions.recording.columns import Rows, faded, on_ground, pieces, rings
+from missions.recording.columns import Rows, on_ground, strips
 from missions.recording.scene import Scene
 
 # An arrow as long as the way of so many seconds.
 _ARROW_S = 4.0
 # News older than this is shown with its age.
 _FRESH_S = 1.0
-_SIGHT_ALPHA = 90
+_CIRCLE = np.column_stack([wave(np.linspace(0.0, 2 * pi, 41)) for wave in (np.cos, np.sin)])
 _HEADER = (
     "| target | where, m east, north | known | follows | calls | lost in | comes | in | off by |\n" + "|---" * 9 + "|"
 )
@@ -67,9 +67,7 @@ class Minds:
     def _columns(self, uid: int, told: Sequence[_Told]) -> list[rr.ComponentColumn]:
         return [
             *_points(self._scene, told),
-            *_errors(told),
-            *_wanted(told),
-            *_sight(told, self._scene.sensing_ranges_m[uid]),
+            *_lines(told, self._scene.sensing_ranges_m[uid]),
             *rr.TextDocument.columns(text=[page(self._scene, one.status, one.observation) for one in told]),
         ]
 
@@ -95,32 +93,33 @@ def _points(scene: Scene, told: Sequence[_Told]) -> rr.ComponentColumnList:
     return points.partition(counts)
 
 
-def _errors(told: Sequence[_Told]) -> rr.ComponentColumnList:
-    """A line from where each target is believed to be to where it is."""
-    ends, colors, counts = [], [], []
+def _lines(told: Sequence[_Told], range_m: float) -> rr.ComponentColumnList:
+    """How far it sees, where it wants to go, and from where each target is believed to be to where it is.
+
+    All of it is one batch of lines: every further column of a mind costs as much as ten beliefs.
+    """
+    lines: list[npt.NDArray[np.float64]] = []
+    colors, counts = [], []
     for one in told:
+        own = palette.ACTIVITY_COLORS[one.status.activity]
         pairs = [(belief, truth) for belief in one.knowledge.beliefs if (truth := one.truth(belief)).present]
-        ends += [place for belief, truth in pairs for place in (belief.place_m, (truth.x_m, truth.y_m))]
-        colors += [_color(one.status, belief) for belief, _ in pairs]
-        counts.append(len(pairs))
-    return pieces(_flat(ends).reshape(-1, 2, 3), np.array(colors, dtype=np.uint32), np.array(counts, dtype=np.int64))
-
-
-def _wanted(told: Sequence[_Told]) -> rr.ComponentColumnList:
-    """Where it wants to go."""
-    wanted = np.array([one.knowledge.wanted_m_s for one in told]).reshape(-1, 2)
-    colors = np.array([palette.ACTIVITY_COLORS[one.status.activity] for one in told], dtype=np.uint32)
-    arrows = rr.Arrows3D.columns(
-        origins=_flat([one.me for one in told]), vectors=_flat(_ARROW_S * wanted), colors=colors
+        lines += [one.me + range_m * _CIRCLE, _arrow(one.me, one.knowledge.wanted_m_s)]
+        lines += [np.array((belief.place_m, (truth.x_m, truth.y_m))) for belief, truth in pairs]
+        colors += [own, own, *(_color(one.status, belief) for belief, _ in pairs)]
+        counts.append(2 + len(pairs))
+    lengths = np.array([len(line) for line in lines])
+    return strips(
+        _flat(np.concatenate(lines)), lengths, np.array(colors, dtype=np.uint32), np.array(counts, dtype=np.int64)
     )
-    return arrows.partition([1] * len(told))
 
 
-def _sight(told: Sequence[_Told], range_m: float) -> rr.ComponentColumnList:
-    """How far it sees."""
-    colors = np.array([palette.ACTIVITY_COLORS[one.status.activity] for one in told], dtype=np.uint32)
-    counts = np.ones(len(told), dtype=np.int64)
-    return rings(_flat([one.me for one in told]), range_m, faded(colors, _SIGHT_ALPHA), counts)
+def _arrow(tail: tuple[float, float], velocity_m_s: tuple[float, float]) -> npt.NDArray[np.float64]:
+    """From a place to where it would be some seconds later, in one stroke: (5, 2)."""
+    start, way = np.array(tail), _ARROW_S * np.array(velocity_m_s)
+    across = np.array((-way[1], way[0]))
+    tip = start + way
+    barbs = [tip - 0.3 * way + side * 0.15 * across for side in (1.0, -1.0)]
+    return np.array((start, tip, barbs[0], tip, barbs[1]))
 
 
 def _flat(places: npt.ArrayLike) -> Floats:

@@ -52,12 +52,16 @@ class Recorder:
         lossless: wait when the recorder is behind, so that the recording is complete and repeats exactly (lockstep);
             else drop the observation and count it (real time).
 
+    Attributes:
+        dropped: observations that came too fast. written_bytes: how long the file was before it was optimized.
+
     A killed process loses at most the last second: `optimize` turns its `F.rrd.part` into a proper recording.
     """
 
     def __init__(self, path: Path | str | None, *, scene: Scene, live: bool = False, lossless: bool = True) -> None:
         self.path = None if path is None else Path(path)
         self.dropped = 0
+        self.written_bytes = 0
         self._scene = scene
         self._live = live
         self._lossless = lossless
@@ -127,6 +131,7 @@ class Recorder:
             raise RecordingError(f"recording failed{remains}: {self._error}") from self._error
         if self._part is None or self.path is None:
             return
+        self.written_bytes = self._part.stat().st_size
         try:
             optimize(self._part, self.path)
             self._part.unlink()

@@ -27,8 +27,10 @@ _LANE_WORDS: dict[Activity, str] = {
     Activity.LOST: "LOST",
 }
 
-# Beyond so many, names of targets hide more than they tell; they still show when pointed at.
-_NAMED_TARGETS = 20
+# Beyond so many, names hide more than they tell; they still show when pointed at.
+_NAMED_TARGETS, _NAMED_AGENTS = 20, 40
+# Of an agent in the radio graph, in the graph's own units, where it has no name.
+_NODE_RADIUS = 2.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,11 +97,12 @@ def _set_ground(tape: Tape, scene: Scene) -> None:
 
 
 def _set_agents(tape: Tape, scene: Scene) -> None:
-    sizes = Sizes.of(scene)
+    sizes, named = Sizes.of(scene), scene.n_agents <= _NAMED_AGENTS
     tape.log_static(
         "/world/agents/body",
-        rr.Points3D.from_fields(labels=scene.agent_names, show_labels=True, radii=_on_screen(3.0)),
+        rr.Points3D.from_fields(labels=scene.agent_names, show_labels=named, radii=_on_screen(3.0)),
     )
+    tape.log_static("/radio/graph", rr.GraphNodes.from_fields(show_labels=named, radii=[_NODE_RADIUS]))
     tape.log_static("/world/agents/heading", rr.Arrows3D.from_fields(radii=[sizes.arrow_m / 6.5]))
     tape.log_static("/world/agents/stem", rr.LineStrips3D.from_fields(radii=_on_screen(0.6)))
     tape.log_static("/world/agents/trail", rr.LineStrips3D.from_fields(radii=_on_screen(1.2)))
@@ -139,9 +142,7 @@ def _set_minds(tape: Tape, scene: Scene) -> None:
         tape.log_static(
             f"/knowledge/{name}",
             rr.Points3D.from_fields(radii=_on_screen(4.0), show_labels=True),
-            rr.LineStrips3D.from_fields(radii=_on_screen(0.8)),
-            rr.Arrows3D.from_fields(radii=_on_screen(1.4)),
-            _ring(Sizes.of(scene), rr.components.FillMode.TransparentFillMajorWireframe, 1.1),
+            rr.LineStrips3D.from_fields(radii=_on_screen(1.1)),
             rr.TextDocument.from_fields(media_type=rr.MediaType.MARKDOWN),
         )
 

@@ -46,6 +46,8 @@ class Lanes:
                 if activity is not self._last[uid]:
                     changed.append(observation)
                     self._last[uid] = activity
+            if not changed:
+                continue
             states = [observation.statuses[uid].activity.value for observation in changed]
             yield Rows(f"/agents/{name}/mode", Block(self._scene, changed), rr.StateChange.columns(state=states))
 
@@ -55,19 +57,24 @@ class EventLog:
 
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
+        self._names = scene.agent_names
 
     def rows(self, block: Block) -> Iterator[Rows]:
         """The events."""
-        said: dict[str, list[_Line]] = {name: [] for name in ("mission", *self._scene.agent_names)}
+        said: dict[str, list[_Line]] = {name: [] for name in ("mission", *self._names)}
         for seen in block.observations:
             said["mission"] += [_Line(seen, event, palette.LEVEL_COLORS[event.level]) for event in seen.events]
-            for name, status in zip(self._scene.agent_names, seen.statuses, strict=True):
+            for status in seen.statuses:
+                if not status.events:
+                    continue
+                name = self._names[status.uid]
                 calm = palette.ACTIVITY_COLORS[status.activity]
                 for event in status.events:
                     color = calm if event.level is Level.INFO else palette.LEVEL_COLORS[event.level]
                     said[name].append(_Line(seen, event, color))
         for name, lines in said.items():
-            yield self._log(name, lines)
+            if lines:
+                yield self._log(name, lines)
 
     def _log(self, name: str, lines: Sequence[_Line]) -> Rows:
         columns = rr.TextLog.columns(
