@@ -75,6 +75,7 @@ def launch(options: argparse.Namespace) -> int:
         tlog=options.tlog,
         report=options.report,
         view=options.view,
+        web=options.web,
         gcs=tuple(options.gcs),
         gcs_key=options.gcs_signing_key,
     )
@@ -291,6 +292,7 @@ def _parser() -> argparse.ArgumentParser:
         help="sign these links, with the key or passphrase in FILE",
     )
     flying.add_argument("--view", action="store_true", help="open a viewer and watch")
+    flying.add_argument("--web", action="store_true", help="serve a viewer to browsers on this computer, and watch")
 
     checking = _verb(verbs, "check", check, "validate missions", _CHECK)
     checking.add_argument("missions", nargs="+", metavar="MISSION", help=_mission_help())

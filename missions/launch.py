@@ -101,16 +101,14 @@ def _fly(flight: Flight, metrics: Metrics, request: StopRequest, console: Consol
         observers: list[Observer] = [*links, metrics]
         if mission.in_real_time:
             observers.append(EventLog(console))
-        recorder = (
-            recorder_of(mission, len(flight.world.places), options)
-            if options.record is not None or options.view
-            else None
-        )
+        recorder = recorder_of(mission, len(flight.world.places), options) if options.is_recorded else None
         if recorder is not None:
             try:
                 recorder.__enter__()
             except OutputError as error:
                 raise InputError(str(error)) from error
+            if recorder.page_url is not None:
+                console.print(f"Watch it in a browser: {recorder.page_url}", soft_wrap=True, markup=False)
             observers.append(recorder)
             flight.side.explain_every_s = explain_every_s(mission)
         progress = progress_on(
@@ -209,4 +207,4 @@ def recorder_of(mission: Mission, n_targets: int, options: LaunchOptions) -> Rec
         coverage_floor=coverage_floor(mission),
     )
     record = None if options.record is None else options.record.resolve()
-    return Recorder(record, scene=scene, live=options.view, lossless=isinf(options.speed))
+    return Recorder(record, scene=scene, view=options.view, web=options.web, lossless=isinf(options.speed))

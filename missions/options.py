@@ -19,7 +19,7 @@ class LaunchOptions:
         record: the rerun recording to write, if any.
         report: the JSON report to write, if any; `-` is standard output.
         tlog: the folder for a telemetry log of each link, if any.
-        view: whether to open a viewer.
+        view: whether to open a viewer. web: whether to serve one to browsers on this machine.
         gcs: URLs of ports for ground stations, the whole swarm on each. gcs_key: what they sign with, if they must.
     """
 
@@ -28,8 +28,14 @@ class LaunchOptions:
     report: str | None = None
     tlog: Path | None = None
     view: bool = False
+    web: bool = False
     gcs: tuple[str, ...] = ()
     gcs_key: bytes | None = None
+
+    @property
+    def is_recorded(self) -> bool:
+        """Whether somebody looks on who wants to see all of it."""
+        return self.record is not None or self.view or self.web
 
 
 def speed_of(mission: Mission, asked: float | None) -> float:

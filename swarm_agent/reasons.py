@@ -51,6 +51,9 @@ class Reasons(NamedTuple):
     def not_helping(self, j: int) -> str:
         """Why it does not (or no longer) go to help with target j."""
         t, p, now = self.table, self.params, self.now_s
+        mine = [f"T{k}" for k, tagged in enumerate(t.tagged) if tagged]
+        if mine:
+            return f"it follows {_listed(mine)}"
         if owned_by_mate(t, p, j, now) and t.owner[j] != t.caller[j]:
             return f"A{t.owner[j]} follows it"
         if not is_called(t, p, j, self.x_m, self.y_m, now):

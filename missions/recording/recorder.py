@@ -28,6 +28,7 @@ from missions.recording.story import EventLog, Lanes
 from missions.recording.swarm import Swarm
 from missions.recording.tape import Tape
 from missions.recording.targets import Targets
+from missions.recording.watch import WebPage, open_window
 
 _QUEUED_S = 5.0
 # Mission time from one flush to the next: what a killed process loses, and what a live viewer lags behind.
@@ -48,33 +49,40 @@ class Recorder:
     Args:
         path: the recording, in a folder that exists; a file of that name is replaced at the end. None keeps nothing.
         scene: what stands still.
-        live: serve the recording on this machine as well, and start a viewer.
+        view: show it in a viewer's window, live. web: serve a page that shows it, live, to browsers on this machine.
         lossless: wait when the recorder is behind, so that the recording is complete and repeats exactly (lockstep);
             else drop the observation and count it (real time).
 
     Attributes:
         dropped: observations that came too fast. written_bytes: how long the file was before it was optimized.
+        server_url: where a viewer on this machine can join in, and page_url: the page for browsers; None if not live.
 
     A killed process loses at most the last second: `optimize` turns its `F.rrd.part` into a proper recording.
     """
 
-    def __init__(self, path: Path | str | None, *, scene: Scene, live: bool = False, lossless: bool = True) -> None:
+    def __init__(
+        self,
+        path: Path | str | None,
+        *,
+        scene: Scene,
+        view: bool = False,
+        web: bool = False,
+        lossless: bool = True,
+    ) -> None:
         self.path = None if path is None else Path(path)
         self.dropped = 0
         self.written_bytes = 0
+        self.server_url: str | None = None
+        self.page_url: str | None = None
+        self._page: WebPage | None = None
         self._scene = scene
-        self._live = live
+        self._view, self._web = view, web
         self._lossless = lossless
         self._part = None if self.path is None else self.path.with_name(self.path.name + ".part")
         self._tape = Tape(scene=scene)
         self._queue: queue.Queue[Observation | None] = queue.Queue(max(2, round(_QUEUED_S * scene.ticks_per_s)))
         self._thread = threading.Thread(target=self._run, name="recorder", daemon=True)
         self._error: BaseException | None = None
-
-    @property
-    def live_url(self) -> str | None:
-        """Where a viewer on this machine can join in, while a live recorder is open."""
-        return self._tape.live_url
 
     def __enter__(self) -> Recorder:
         """Open the file and start the thread.
@@ -85,14 +93,26 @@ class Recorder:
         try:
             if self._part is not None:
                 self._tape.open_file(self._part, blueprint(self._scene, live=False))
-            if self._live:
-                self._tape.open_live(blueprint(self._scene, live=True))
+            if self._is_live:
+                self.server_url = self._tape.open_server(blueprint(self._scene, live=True))
             set_stage(self._tape, self._scene)
         except Exception as error:
             self._tape.close()
             raise RecordingError(f"cannot record to {self._part}: {error}") from error
+        self._show()
         self._thread.start()
         return self
+
+    @property
+    def _is_live(self) -> bool:
+        return self._view or self._web
+
+    def _show(self) -> None:
+        if self.server_url is not None and self._view:
+            open_window(self.server_url)
+        if self.server_url is not None and self._web:
+            self._page = WebPage(self.server_url)
+            self.page_url = self._page.url
 
     def observe(self, observation: Observation) -> None:
         """Record one tick. Costs the caller a queue entry; never raises on account of the recording."""
@@ -122,6 +142,8 @@ class Recorder:
             _log.error("%s", failure)
 
     def _finish(self) -> None:
+        if self._page is not None:
+            self._page.close()
         try:
             self._tape.close()
         except Exception as error:
@@ -150,7 +172,7 @@ class Recorder:
 
     def _record(self) -> None:
         layers: list[Layer] = [kind(self._scene) for kind in _LAYERS]
-        ticks = round(self._scene.ticks_per_s * (_LIVE_FLUSH_S if self._live else _FLUSH_S)) or 1
+        ticks = round(self._scene.ticks_per_s * (_LIVE_FLUSH_S if self._is_live else _FLUSH_S)) or 1
         waiting: list[Observation] = []
         while (observation := self._queue.get()) is not None:
             waiting.append(observation)

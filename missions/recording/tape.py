@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-import logging
-import os
-import socket
-import subprocess
 from pathlib import Path
 
 import rerun as rr
@@ -13,14 +9,14 @@ import rerun.blueprint as rrb
 
 from missions.recording.block import Block
 from missions.recording.columns import Rows
-from missions.recording.optimize import rerun_command
 from missions.recording.scene import Scene
+from missions.recording.watch import LOOPBACK, free_port
 
 APPLICATION_ID = "swarm-mission-stack"
 TIME_LINE, TICK_LINE = "mission_time", "tick"
 
 _FLUSH_TIMEOUT_S = 20.0
-_log = logging.getLogger(__name__)
+_SERVED = "1GiB"
 
 
 class Tape:
@@ -29,26 +25,20 @@ class Tape:
     def __init__(self, *, scene: Scene) -> None:
         self._scene = scene
         self._streams: list[rr.RecordingStream] = []
-        self.live_url: str | None = None
 
     def open_file(self, path: Path, blueprint: rrb.Blueprint) -> None:
         """Record into `path`, replacing it."""
         stream = self._new_stream()
         stream.set_sinks(rr.FileSink(path), default_blueprint=blueprint)
 
-    def open_live(self, blueprint: rrb.Blueprint) -> None:
-        """Serve the recording to viewers on this machine, and start one. It may close, or never open: no matter."""
-        server = rr.GrpcServerSink("127.0.0.1", _free_port())
-        stream = self._new_stream()
-        stream.set_sinks(server, default_blueprint=blueprint)
-        self.live_url = server.uri
-        environment = {**os.environ, "RERUN_APP_ONLY": "true"}
-        command = [*rerun_command(), "--hide-welcome-screen", server.uri]
-        quiet = subprocess.DEVNULL
-        try:
-            subprocess.Popen(command, env=environment, stdout=quiet, stderr=quiet, start_new_session=True)
-        except OSError as error:
-            _log.warning("no live viewer: %s; the recording goes on, open %s to watch", error, server.uri)
+    def open_server(self, blueprint: rrb.Blueprint) -> str:
+        """Serve the recording to viewers on this machine, late ones too, and return where.
+
+        It keeps so much for them and no more: the oldest goes first.
+        """
+        server = rr.GrpcServerSink(LOOPBACK, free_port(), server_memory_limit=_SERVED)
+        self._new_stream().set_sinks(server, default_blueprint=blueprint)
+        return str(server.uri)
 
     def log_static(self, path: str, *parts: rr.AsComponents) -> None:
         """Record what holds at every time."""
@@ -95,10 +85,3 @@ def _indexes(block: Block | None) -> list[rr.TimeColumn]:
         return []
     times = rr.TimeColumn(TIME_LINE, duration=block.times_ns.astype("timedelta64[ns]"))
     return [times, rr.TimeColumn(TICK_LINE, sequence=block.ticks)]
-
-
-def _free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port: int = probe.getsockname()[1]
-        return port
