@@ -149,6 +149,7 @@ def agents(mission: Mission, uids: Iterable[int], n_targets: int) -> list[Agent]
                 n_targets=n_targets,
                 heading=firsts[uid],
                 ttl_s=ttl_s,
+                radio_range_m=mission.radio.range_m,
                 pilot=PilotConfig(
                     uid=uid,
                     system_id=mission.system_id(uid),

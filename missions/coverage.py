@@ -37,6 +37,11 @@ class Coverage:
         start = len(self._seen) * 3 // 4
         return _share(self._seen[start:], self._present[start:])
 
+    def between(self, first: int, end: int) -> float | None:
+        """The mean of the ticks from `first` on and before `end`, as far as they were flown."""
+        window = slice(max(0, first), max(0, end))
+        return _share(self._seen[window], self._present[window])
+
 
 def _share(seen: Sequence[int], present: Sequence[int]) -> float | None:
     return sum(seen) / sum(present) if sum(present) else None

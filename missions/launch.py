@@ -17,6 +17,7 @@ from comms.clock import Lockstep, Pace, RealTime
 from comms.session import open_local_bus
 from comms.transport import Transport, TransportError, transport_of
 from missions.compose import cos_half_opening
+from missions.faults.costs import Costs
 from missions.flight import Flight
 from missions.ground_link import open_ground_link
 from missions.load import dump_mission
@@ -71,7 +72,7 @@ def launch(mission: Mission, *, options: LaunchOptions) -> int:
     """
     console = Console(stderr=options.report == "-")
     _check_files(options)
-    metrics, request = Metrics(), StopRequest(console)
+    metrics, request = Metrics(costs=Costs(mission.faults, tick_s=mission.tick_s)), StopRequest(console)
     with open_local_bus() as bus, _transports(mission) as transports, request.listening():
         flight = Flight(mission, bus, transports)
         began_s = time.monotonic()

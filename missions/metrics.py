@@ -9,6 +9,7 @@ from math import hypot, inf
 from comms.frames import Vec3
 from comms.status import Activity, AgentStatus, Level
 from missions.coverage import Coverage
+from missions.faults.costs import Costs
 from missions.observation import PLACES_PER_M, Observation, Totals
 
 MAX_FAULTS = 1000
@@ -65,6 +66,7 @@ class Metrics:
     events: EventCount = field(default_factory=EventCount)
     help: HelpCount = field(default_factory=HelpCount)
     faults: list[Fault] = field(default_factory=list)
+    costs: Costs = field(default_factory=Costs)
     tick_late_s_max: float = 0.0
     _before: tuple[AgentStatus, ...] = ()
     _on_duty_before: bool = False
@@ -77,6 +79,7 @@ class Metrics:
         self.tick_late_s_max = max(self.tick_late_s_max, observation.tick_late_s)
         self.totals = observation.totals
         self._count_faults(observation)
+        self.costs.observe(observation)
         if on_duty:
             self.ticks += 1
             self.coverage.add(

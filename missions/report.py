@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import platform
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -98,6 +98,7 @@ def report_of(
             },
         },
         "faults": [asdict(fault) for fault in metrics.faults],
+        "injected": metrics.costs.told(metrics.coverage),
         "recording": None if recording is None else str(recording),
         "versions": dict(facts.versions),
         "timing": {
@@ -161,6 +162,18 @@ def _lines(report: Report) -> Mapping[str, str]:
     for fault in report["faults"][:10]:
         who = "mission" if fault["agent"] is None else f"agent {fault['agent']}"
         lines[f"fault {fault['time_s']:.1f} s"] = f"{who}: {fault['what']}"
+    return lines | _injected(report["injected"])
+
+
+def _injected(faults: Sequence[Mapping[str, Any]]) -> dict[str, str]:
+    """Every fault of the mission's own, a line each."""
+    lines = {}
+    for fault in faults:
+        seen = ", ".join(f"{_percent(share)} {when}" for when, share in fault["coverage"].items())
+        after_s = fault["noticed_after_s"]
+        noticed = "not noticed" if after_s is None else f"noticed after {after_s:.1f} s by agent {fault['noticed_by']}"
+        what = f"{fault['what']}, {fault['whom']}"
+        lines[f"at {fault['at_s']:g} s {what}"] = f"{noticed}; coverage {seen}"
     return lines
 
 

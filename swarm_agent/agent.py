@@ -25,6 +25,7 @@ from swarm_agent.bcmommt.params import Explore, Params
 from swarm_agent.bcmommt.speech import answers_said, calls_said, hear, tags_said
 from swarm_agent.bcmommt.step import Mind, new_mind
 from swarm_agent.insight import insight
+from swarm_agent.mates import Mates
 from swarm_agent.news import news
 from swarm_agent.policies.choice import decide
 from swarm_agent.reasons import Reasons
@@ -54,6 +55,7 @@ class AgentConfig:
 
     Attributes:
         heading: unit vector (east, north) in which the search begins. ttl_s: how long its frames are worth hearing.
+        radio_range_m: how far they should be heard.
     """
 
     uid: int
@@ -63,6 +65,7 @@ class AgentConfig:
     n_targets: int
     heading: tuple[float, float]
     ttl_s: float
+    radio_range_m: float
     pilot: PilotConfig
     safety: SafetyConfig
 
@@ -88,6 +91,7 @@ class Agent:
         self._seq = 0
         self._told: AgentStatus | None = None
         self._guard = Guard(config.safety)
+        self._mates = self._new_mates()
         self.pilot = Pilot(config.pilot, signing=signing)
 
     @property
@@ -117,6 +121,7 @@ class Agent:
         intent: Intent
         on_duty = state.ready and not state.link_lost and order.mission_tick is not None and not come_home
         if on_duty and order.mission_tick is not None and state.position_m and state.velocity_m_s:
+            self._mates.hear(now_s, state.position_m, inbox)
             self._perceive(now_s, state.position_m, sightings, inbox)
             intent = self._decide(now_s, order.mission_tick, state.position_m)
             frame = self._say(now_s, state.position_m, state.velocity_m_s)
@@ -124,6 +129,7 @@ class Agent:
             intent = Return() if come_home else Prepare()
             if self._on_duty:  # on the ground or in other hands it must not hold on to targets
                 self._table, self._mind = self._innocence()
+                self._mates = self._new_mates()
         self._on_duty = frame is not None
         wire = pilot.act(now_s, intent)
         return Output(frame, wire, self._tell(now_s, self._status(pilot.state, inbox), explain=order.explain))
@@ -134,11 +140,15 @@ class Agent:
         cells = cell_columns(p) * cell_rows(p) if p.explore == Explore.STALE_FIRST else 0
         return new_table(config.n_targets, config.n_agents, cells), new_mind(*config.heading)
 
+    def _new_mates(self) -> Mates:
+        return Mates(range_m=self._config.radio_range_m, ttl_s=self._config.ttl_s)
+
     def _tell(self, now_s: float, status: AgentStatus, *, explain: bool) -> AgentStatus:
         """The status with everything to be said in words: by the autopilot, the pilot and the algorithm."""
         x, y, _ = status.position_m or _NOWHERE
         reasons = Reasons(self._table, self._config.params, self._mind, self._config.uid, x, y, now_s)
-        events = self.pilot.take_events() + self._guard.take_events() + news(self._told, status, reasons)
+        events = self.pilot.take_events() + self._guard.take_events() + self._mates.take_events()
+        events += news(self._told, status, reasons)
         self._told = status
         if explain:
             knowledge = self._explain(reasons)

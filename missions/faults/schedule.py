@@ -80,7 +80,7 @@ class Schedule:
     """
 
     def __init__(self, mission: Mission) -> None:
-        self.spells = tuple(_spell(fault, mission.tick_s) for fault in mission.faults)
+        self.spells = spells_of(mission.faults, mission.tick_s)
         edges = {edge for spell in self.spells for edge in (spell.first, spell.end) if edge is not None}
         self._edges = sorted(edges)
         self._ills = [WELL, *(self._all_at(edge, mission) for edge in self._edges)]
@@ -116,6 +116,11 @@ class Schedule:
             identity_errors=_identity_errors(faults, mission),
             breakage=_breakage(faults, mission),
         )
+
+
+def spells_of(faults: Sequence[AnyFault], tick_s: float) -> tuple[Spell, ...]:
+    """The faults on the ticks of a mission."""
+    return tuple(_spell(fault, tick_s) for fault in faults)
 
 
 def _spell(fault: AnyFault, tick_s: float) -> Spell:

@@ -8,10 +8,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from pydantic import TypeAdapter, ValidationError
 from ruamel.yaml import YAML
 
 from comms.arena import Arena, disc, rectangle
+from missions.faults.costs import Costs
 from missions.metrics import Metrics
+from missions.mission.faults import AnyFault, Faults
 from missions.observation import Observation
 from missions.recording.playback import Playback, play_back
 from missions.report import Report, report_of
@@ -70,11 +73,11 @@ def read(path: Path) -> Review:
     """
     playback = play_back(path)
     observations, facts = playback.observations, playback.facts
-    metrics = Metrics()
-    for seen in observations:
-        metrics.observe(seen)
     # Read leniently: another version may have written keys that this one does not know.
     settings: Mapping[str, Any] = YAML(typ="safe", pure=True).load(playback.mission_yaml)
+    metrics = Metrics(costs=Costs(_faults(settings.get("faults", [])), tick_s=facts.tick_s))
+    for seen in observations:
+        metrics.observe(seen)
     range_m, speed_m_s = settings["agents"]["sensing"]["range_m"], settings["agents"]["speed_m_s"]
     calls = calls_of(observations)
     losses = losses_of(observations, calls, speed_m_s=speed_m_s, sensing_range_m=range_m)
@@ -90,6 +93,13 @@ def read(path: Path) -> Review:
         losses=losses,
         lines=timeline_of(observations, calls, losses),
     )
+
+
+def _faults(settings: Any) -> tuple[AnyFault, ...]:
+    try:
+        return TypeAdapter[tuple[AnyFault, ...]](Faults).validate_python(settings)
+    except ValidationError:
+        return ()
 
 
 def _arena(settings: Mapping[str, Any]) -> Arena:

@@ -28,7 +28,7 @@ from vehicle_sim.autopilot.modes import Mode
 SMALL = ("agents.count=4", "targets.count=4", "duration_s=15", "vehicle.boot_s=0.5", "agents.altitude.base_m=4")
 KEYS = {
     "mission", "policy", "seed", "agents", "targets", "duration_s", "coverage", "coverage_late", "coverage_floor",
-    "utilization", "events", "help", "radio", "mavlink", "faults", "recording", "versions", "timing",
+    "utilization", "events", "help", "radio", "mavlink", "faults", "injected", "recording", "versions", "timing",
 }  # fmt: skip
 
 
