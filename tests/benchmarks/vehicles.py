@@ -3,7 +3,8 @@
     python -m tests.benchmarks.vehicles [--runs N] [--vehicles N] [--seconds S]
 
 Every vehicle flies by a velocity setpoint at 10 Hz and reports position and attitude at 10 Hz and the rest at 1 Hz,
-in ticks of 0.1 s. A real ArduCopter SITL flies 57 vehicle-seconds in a second of one core.
+in ticks of 0.1 s; a PX4 reports what it sends unasked besides. A real ArduCopter SITL flies 57 vehicle-seconds in a
+second of one core.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import os
 import platform
 import time
 from statistics import median
+from typing import Any
 
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 from rich.console import Console
@@ -21,10 +23,11 @@ from rich.table import Table
 from comms.frames import GeoPoint
 from comms.mavlink import Endpoint
 from vehicle_sim.autopilot import SimulatedVehicle
-from vehicle_sim.vehicle import VehicleConfig
+from vehicle_sim.vehicle import FlavorName, VehicleConfig
 from vehicle_sim.wind import Wind
 
 TICK_S = 0.1
+SYSTEM = 1  # of every vehicle: each hears the same
 FAST_IDS = (30, 32, 33)  # ATTITUDE, LOCAL_POSITION_NED, GLOBAL_POSITION_INT
 SLOW_IDS = (0, 1, 2, 24, 49, 74, 85, 147, 148, 193, 242, 245)  # health, GPS, battery, estimate, home ...
 READY_TICKS, CLIMB_TICKS = 20, 100
@@ -32,22 +35,32 @@ RACE_AGAINST = 57.0  # vehicle-seconds a core-second of a real SITL
 
 
 def command(number: int, *params: float) -> dialect.MAVLink_message:
-    return dialect.MAVLink_command_long_message(0, 1, number, 0, *params, *[0.0] * (7 - len(params)))
+    return dialect.MAVLink_command_long_message(SYSTEM, 1, number, 0, *params, *[0.0] * (7 - len(params)))
+
+
+HOME = GeoPoint(47.397742, 8.545594, 488.1)
+# What leads to flying by setpoints: commands before the takeoff, its altitude, and commands behind it.
+DEPARTURES: dict[FlavorName, tuple[tuple[Any, ...], float, tuple[Any, ...]]] = {
+    "ardupilot": ((command(176, 1, 4),), 10.0, ()),
+    "px4": ((), HOME.altitude_m + 10.0, (command(176, 1, 6),)),
+}
 
 
 class Fleet:
     """Vehicles in the air, all streaming."""
 
     def __init__(self, count: int, config: VehicleConfig) -> None:
-        home = GeoPoint(47.397742, 8.545594, 488.1)
         self.ticks = 0
-        self.vehicles = [SimulatedVehicle(config=config, system_id=1 + k, home=home, seed=7) for k in range(count)]
+        self.vehicles = [SimulatedVehicle(config=config, system_id=SYSTEM, home=HOME, seed=k) for k in range(count)]
         self._ground = Endpoint(system_id=255)
         for _ in range(READY_TICKS):
             self.tick()
-        self.tick(command(176, 1, 4), command(400, 1), command(22, 0, 0, 0, 0, 0, 0, 10))
+        before, height_m, behind = DEPARTURES[config.flavor]
+        self.tick(*before, command(400, 1), command(22, 0, 0, 0, 0, 0, 0, height_m))
         for _ in range(CLIMB_TICKS):
             self.tick()
+        self.fly(1)
+        self.tick(*behind)
         rates = [command(511, number, 1e5 if number in FAST_IDS else 1e6) for number in (*FAST_IDS, *SLOW_IDS)]
         self.tick(*rates)
         if not all(vehicle.truth.position_ned_m[2] < -5.0 for vehicle in self.vehicles):
@@ -84,6 +97,7 @@ CONFIGS: dict[str, VehicleConfig] = {
     "simulated": VehicleConfig(),
     "simulated, in gusts": VehicleConfig(wind=Wind(speed_m_s=3.0, gust_m_s=1.0)),
     "ideal": VehicleConfig(kind="ideal"),
+    "simulated, px4": VehicleConfig(flavor="px4"),
 }
 
 

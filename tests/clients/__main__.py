@@ -41,7 +41,7 @@ class Flight(NamedTuple):
 
 
 MAVSDK, MAVUTIL, MAVPROXY = "mavsdk_session", "mavutil_session", "mavproxy_session"
-MAVSDK_PX4 = "mavsdk_px4_session"
+MAVSDK_PX4, MAVUTIL_PX4 = "mavsdk_px4_session", "mavutil_px4_session"
 FLIGHTS = (
     Flight(MAVSDK, "tcpout://{}"),
     Flight(MAVSDK, "tcpout://{}", withheld=(242, "HOME_POSITION"), fails_at="health_all_ok"),
@@ -52,6 +52,8 @@ FLIGHTS = (
     Flight(MAVUTIL),
     Flight(MAVUTIL, withheld=(77, "COMMAND_ACK"), fails_at="arm refusal"),
     Flight(MAVUTIL, withheld=(22, "PARAM_VALUE"), fails_at="parameters"),
+    Flight(MAVUTIL_PX4, flavour="px4"),
+    Flight(MAVUTIL_PX4, flavour="px4", withheld=(77, "COMMAND_ACK"), fails_at="arm refusal"),
     Flight(MAVPROXY, boot_s=60),
     Flight(MAVPROXY, boot_s=60, withheld=(253, "STATUSTEXT"), fails_at="arm refusal"),
     Flight(MAVPROXY, boot_s=60, withheld=(40, "MISSION_REQUEST"), fails_at="mission up"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Callable
 from math import hypot, nan
 from typing import Any
 
@@ -24,6 +25,8 @@ STREAMS = (1, 24, 32, 33, 74, 193, 245)
 class Session:
     """One vehicle on one link. `recv_match` fills `link.messages`, which remembers the newest of each type."""
 
+    identity = (2, 3)  # MAV_TYPE and MAV_AUTOPILOT
+
     def __init__(self, url: str) -> None:
         self.link: Any = mavutil.mavlink_connection(url, source_system=255)
         self.texts: list[str] = []
@@ -31,7 +34,7 @@ class Session:
         self.link.message_hooks.append(self._hear)
         beat = self.link.wait_heartbeat(timeout=10.0)
         expect(beat is not None, "no heartbeat within 10 s")
-        expect((beat.type, beat.autopilot) == (2, 3), f"not an ArduCopter: {beat}")
+        expect((beat.type, beat.autopilot) == self.identity, f"another autopilot: {beat}")
 
     def _hear(self, link: Any, message: Any) -> None:
         if message.get_type() == "STATUSTEXT":
@@ -151,25 +154,29 @@ class Session:
         wait_for("disarmed", lambda: (self.see("HEARTBEAT"), not self.link.motors_armed())[1], timeout_s=90.0)
         return self.text("Disarming motors")
 
+    def steps(self) -> tuple[tuple[str, Callable[[], object]], ...]:
+        """A day out."""
+        return (
+            ("arm refusal", self.refused),
+            ("rates", self.rates),
+            ("parameters", self.parameters),
+            ("ready", self.ready),
+            ("bad commands", self.bad_commands),
+            ("takeoff", self.take_off),
+            ("velocity setpoints", self.fly_velocity),
+            ("watchdog", self.watchdog),
+            ("disarm refusal", self.disarm_refused),
+            ("land", self.land),
+        )
 
-def main(url: str) -> None:
+
+def fly(url: str, kind: type[Session] = Session) -> None:
+    """Every step, in the order of a day out."""
     found: list[Session] = []
-    step("discovery", lambda: found.append(Session(url)))
-    vehicle = found[0]
-    for name, action in (
-        ("arm refusal", vehicle.refused),
-        ("rates", vehicle.rates),
-        ("parameters", vehicle.parameters),
-        ("ready", vehicle.ready),
-        ("bad commands", vehicle.bad_commands),
-        ("takeoff", vehicle.take_off),
-        ("velocity setpoints", vehicle.fly_velocity),
-        ("watchdog", vehicle.watchdog),
-        ("disarm refusal", vehicle.disarm_refused),
-        ("land", vehicle.land),
-    ):
+    step("discovery", lambda: found.append(kind(url)))
+    for name, action in found[0].steps():
         step(name, action)
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    fly(sys.argv[1])

@@ -14,7 +14,7 @@ from comms.mavlink import Endpoint
 from comms.status import Event, Level
 from swarm_agent.autopilot import Fly, Intent, Land, Phase, Pilot, PilotConfig, PilotState, Prepare, Return
 from vehicle_sim.autopilot import SimulatedVehicle
-from vehicle_sim.vehicle import KINDS, Kind, VehicleConfig
+from vehicle_sim.vehicle import FLAVOR_NAMES, KINDS, FlavorName, Kind, VehicleConfig
 from vehicle_sim.wind import Wind
 
 MISSION_HOME = GeoPoint(47.397742, 8.545594, 488.1)
@@ -85,10 +85,11 @@ class Flight:
         return self.run(intent, seconds=seconds, until=lambda: self.state.phase is Phase.DONE)
 
 
+@pytest.mark.parametrize("flavor", FLAVOR_NAMES)
 @pytest.mark.parametrize("kind", KINDS)
 class TestWholeFlight:
-    def test_from_power_on_to_landed(self, kind: Kind) -> None:
-        flight = Flight(vehicle=VehicleConfig(kind=kind)).climbed()
+    def test_from_power_on_to_landed(self, kind: Kind, flavor: FlavorName) -> None:
+        flight = Flight(vehicle=VehicleConfig(kind=kind, flavor=flavor)).climbed()
         flight.run(Fly((3.0, 2.0)), seconds=15.0).ended(Return())
         assert flight.phases == [
             Phase.CONNECT,
@@ -105,16 +106,16 @@ class TestWholeFlight:
         assert flight.pilot.endpoint.bad == flight.vehicle.endpoint.bad == flight.pilot.ignored == 0
         assert not [event for event in flight.events if event.level is Level.ERROR]
 
-    def test_believes_what_is_true(self, kind: Kind) -> None:
-        flight = Flight(vehicle=VehicleConfig(kind=kind)).climbed().run(Fly((0.0, -4.0)), seconds=10.0)
+    def test_believes_what_is_true(self, kind: Kind, flavor: FlavorName) -> None:
+        flight = Flight(vehicle=VehicleConfig(kind=kind, flavor=flavor)).climbed().run(Fly((0.0, -4.0)), seconds=10.0)
         position_m, velocity_m_s = flight.state.position_m, flight.state.velocity_m_s
         assert position_m is not None
         assert velocity_m_s is not None
         assert position_m == pytest.approx(flight.truth_m, abs=0.6)
         assert velocity_m_s == pytest.approx((0.0, -4.0, 0.0), abs=0.3)
 
-    def test_stays_on_its_layer_and_under_its_speed(self, kind: Kind) -> None:
-        flight = Flight(vehicle=VehicleConfig(kind=kind)).climbed().run(Prepare(), seconds=10.0)
+    def test_stays_on_its_layer_and_under_its_speed(self, kind: Kind, flavor: FlavorName) -> None:
+        flight = Flight(vehicle=VehicleConfig(kind=kind, flavor=flavor)).climbed().run(Prepare(), seconds=10.0)
         begin = len(flight.track_m)
         for wish in ((30.0, 0.0), (-30.0, 30.0), (0.0, -1.0), (0.0, 0.0)):
             flight.run(Fly(wish), seconds=8.0)
@@ -123,13 +124,13 @@ class TestWholeFlight:
         speeds = [hypot(b[0] - a[0], b[1] - a[1]) / TICK_S for a, b in pairwise(flown)]
         assert 4.8 < max(speeds) < 5.5
 
-    def test_a_hill_changes_neither_layer_nor_return(self, kind: Kind) -> None:
-        flight = Flight(offset_m=(0.0, 60.0, 6.0), vehicle=VehicleConfig(kind=kind)).climbed()
+    def test_a_hill_changes_neither_layer_nor_return(self, kind: Kind, flavor: FlavorName) -> None:
+        flight = Flight(offset_m=(0.0, 60.0, 6.0), vehicle=VehicleConfig(kind=kind, flavor=flavor)).climbed()
         flight.run(Fly((2.0, -2.0)), seconds=15.0)
         assert flight.truth_m[2] == pytest.approx(LAYER_M, abs=0.3)
         begin = len(flight.track_m)
         flight.ended(Return())
-        # It comes home at the layer, not at ArduCopter's own 15 m: sinking starts above its pad.
+        # It comes home at the layer, not at an autopilot's own height: sinking starts above its pad.
         sinking = [place for place in flight.track_m[begin:] if place[2] < LAYER_M - 1.0]
         assert max(hypot(east, north - 60.0) for east, north, _ in sinking) < 2.0
 

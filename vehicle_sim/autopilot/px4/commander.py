@@ -247,7 +247,8 @@ class Commander(Autopilot):
                 self._flew = True
                 self.say(INFO, "Takeoff detected")
             return
-        if not self.armed or self.guidance.taking_off:
+        lifts = self.guidance.taking_off and not self.airframe.tumbling
+        if not self.armed or lifts:
             self._idle_since_s = self.now_s
             return
         idle_s = self.now_s - self._idle_since_s + TIME_SLACK_S

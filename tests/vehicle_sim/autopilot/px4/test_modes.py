@@ -245,3 +245,12 @@ def test_modes_that_fly_by_themselves_cruise_and_offboard_does_not() -> None:
 
 def test_words_name_every_mode_once() -> None:
     assert len({row.word for row in MODES.values()}) == len(Mode)
+
+
+def test_what_cannot_lift_off_disarms_all_the_same() -> None:
+    station = ready()
+    station.pilot.parameters.suffer("SIM_ENGINE_MUL", 0.0)
+    assert station.order(400, 1) == ACCEPTED
+    assert station.order(22, 0, 0, 0, nan, nan, nan, nan) == ACCEPTED
+    station.tick(seconds=15.0)
+    assert not station.pilot.armed
