@@ -151,9 +151,10 @@ class TakenOver(OnTheWay):
     def tick(self, cockpit: Cockpit, now_s: float, intent: Intent) -> Stage:
         """Watch."""
         telemetry, flavor = cockpit.telemetry, cockpit.flavor
+        came_down = self.phase is not Phase.TAKEN_OVER  # until now: a PX4 leaves that mode as it disarms
         self.phase = _phase(cockpit)
         if not telemetry.armed:
-            return _disarmed(cockpit, now_s)
+            return Descent() if came_down else _disarmed(cockpit, now_s)
         if cockpit.in_mode(flavor.guided):
             cockpit.say(Level.INFO, f"{flavor.guided.name} again: going on")
             return OnLayer()

@@ -63,7 +63,7 @@ class Commander(Autopilot):
         )
         self.geofence = Geofence(self.plans.fences)
         self.failsafes = Failsafes()
-        self.mode = self.intended = Mode.HOLD
+        self.mode = self.intended = self._after_flight = Mode.HOLD
         self.fly_by(Px4Guidance(steering=self.steering, mission=self.mission))
         self.parameters.on_change(("MPC_",), self.guidance.retune)
         self.had_sticks = False
@@ -112,8 +112,7 @@ class Commander(Autopilot):
             return False
         if mode is not self.intended or self.failsafes.active:
             self.failsafes.take_over()
-            self.intended = mode
-            self.fly_mode(mode)
+            self._intend(mode)
         return True
 
     def arm(self, reason: str = EXTERNAL) -> bool:
@@ -146,8 +145,7 @@ class Commander(Autopilot):
         self.failsafes.rest()
         self.guidance.takeoff_altitude_m = None
         self.mission.stop()
-        self.intended = Mode.HOLD
-        self.fly_mode(Mode.HOLD)
+        self._intend(self._after_flight)
         self.say(INFO, f"Disarmed by {reason}")
         return True
 
@@ -187,8 +185,7 @@ class Commander(Autopilot):
         self.mission.complete = False
         self.steering.home_ned_m = self.steering.place_ned_m
         self._armed_at_s = self._setpoint_at_s = self._gcs_at_s = NEVER_S
-        self.intended = Mode.HOLD
-        self.fly_mode(Mode.HOLD)
+        self._intend(Mode.HOLD)
         self.announce = self.restarted = True
         return True
 
@@ -232,11 +229,17 @@ class Commander(Autopilot):
     def touch_down(self, speed_m_s: float) -> None:
         """It says so when its land detector believes it."""
 
+    def _intend(self, mode: Mode) -> None:
+        """Fly `mode`, for that is wanted; once disarmed, it waits in the last one that it may be armed in."""
+        self.intended = mode
+        if MODES[mode].armable:
+            self._after_flight = mode
+        self.fly_mode(mode)
+
     def _end_takeoff(self, lift: Lift) -> None:
         """Stay where it led, or go on with the mission."""
         goes_on = self.parameters["COM_TAKEOFF_ACT"] == 1.0 and can_run(self, Mode.MISSION)
-        self.intended = Mode.MISSION if goes_on else Mode.HOLD
-        self.fly_mode(self.intended)
+        self._intend(Mode.MISSION if goes_on else Mode.HOLD)
         if isinstance(self.guidance.navigator, Hold):
             self.guidance.navigator.go(lift.goal_ned_m)
 

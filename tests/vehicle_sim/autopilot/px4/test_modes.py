@@ -215,7 +215,7 @@ def test_a_return_climbs_goes_home_descends_lands_and_disarms() -> None:
     assert hypot(north, east) < 0.6
     assert "Returning to launch" in station.texts()
     assert station.texts()[-2:] == ["Landing detected", "Disarmed by landing"]
-    assert station.mode is Mode.HOLD  # ready for the next flight
+    assert station.mode is Mode.HOLD  # the last one that it may be armed in
 
 
 @pytest.mark.parametrize(("away_m", "height_m"), [(5.0, 10.0), (15.0, 15.0), (60.0, 30.0)])

@@ -164,7 +164,8 @@ def test_mission_start_arms_lifts_off_flies_and_comes_down(commands: tuple[int, 
     reached = [message.seq for _, message in station.all("MISSION_ITEM_REACHED")]
     assert reached[0] == 0
     assert "Disarmed by landing" in station.texts()
-    assert station.order(400, 1) == ACCEPTED  # in HOLD again
+    assert station.mode is Mode.MISSION
+    assert station.order(400, 1) == ACCEPTED  # it would fly it again
 
 
 def test_without_a_mission_there_is_nothing_to_start() -> None:
