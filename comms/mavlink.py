@@ -11,6 +11,7 @@ buffer grow without limit, and so is packing (`packing`); checksums and message 
 
 from __future__ import annotations
 
+import struct
 from typing import Any
 
 from pymavlink.dialects.v20 import ardupilotmega as dialect
@@ -162,3 +163,30 @@ def _signing_codec(system_id: int, component_id: int, signing: Signing) -> Any:
     codec.signing.link_id = signing.link_id
     codec.signing.sign_outgoing = True
     return codec
+
+
+class LogDecoder:
+    """Decodes frames of MAVLink 1 or 2 out of a log, where they lie one by one."""
+
+    def __init__(self) -> None:
+        self._codec = dialect.MAVLink(None)
+
+    def decoded(self, frame: bytes) -> Message | None:
+        """The message of a whole frame; None if its checksum is wrong, or nobody knows what it says."""
+        try:
+            message = self._codec.decode(bytearray(frame))
+        except (dialect.MAVError, ValueError, IndexError, UnicodeDecodeError, struct.error):
+            return None
+        return None if message.get_msgId() < 0 else message
+
+
+def numbers_of(message: Message) -> dict[str, float]:
+    """A message's numbers by the names of their fields, arrays flattened (`q[0]`); texts are left out."""
+    numbers: dict[str, float] = {}
+    for name in message.fieldnames:
+        value = getattr(message, name)
+        if isinstance(value, (int, float)):
+            numbers[name] = float(value)
+        elif isinstance(value, (list, tuple)):
+            numbers |= {f"{name}[{place}]": float(part) for place, part in enumerate(value)}
+    return numbers

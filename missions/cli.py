@@ -144,6 +144,15 @@ def review(options: argparse.Namespace) -> int:
     return tell(review_options(options))
 
 
+def import_(options: argparse.Namespace) -> int:
+    """Make a recording of flight logs."""
+    _need_extra("import", "ground", _REVIEW_PACKAGES)
+    from missions.conversion import import_logs
+
+    import_logs(options.logs, options.to)
+    return DONE
+
+
 def study(options: argparse.Namespace) -> int:
     """Fly a study, all of the paper's, or merge what several computers have flown."""
     _need_extra("study", "study", _STUDY_PACKAGES)
@@ -227,6 +236,13 @@ _PLAN = """examples:
 Prints the agents with their system ids, layers and starting places, the phases, the coverage floor
 1 - (1 - A_sensed / A_arena) ^ agents, and every setting beside its default. Flies nothing."""
 
+_IMPORT = """examples:
+  swarm import flight.tlog --to out/flight.rrd         a log of MAVProxy or QGroundControl
+  swarm import out/logs/*.tlog --to out/swarm.rrd      what swarm launch --tlog out/logs kept, all vehicles in one
+
+Look at it with rerun. A run of a study needs no import: swarm launch MISSION --set vehicle.kind=ideal --seed N
+--record F.rrd flies and records the very same."""
+
 _SCHEMA = """example:
   swarm schema > mission.schema.json
 
@@ -304,6 +320,10 @@ def _parser() -> argparse.ArgumentParser:
     add_sim_options(_verb(verbs, "sim", sim, "fly one vehicle in real time, as ArduCopter SITL does", SIM_EXAMPLES))
 
     add_review_options(_verb(verbs, "review", review, "tell what happened, from a recording", REVIEW_EXAMPLES))
+
+    importing = _verb(verbs, "import", import_, "make a recording of flight logs", _IMPORT)
+    importing.add_argument("logs", nargs="+", type=Path, metavar="F.tlog", help="a telemetry log")
+    importing.add_argument("--to", type=_new_file, required=True, metavar="F.rrd", help="the recording to write")
 
     _add_study(_verb(verbs, "study", study, "fly many missions and compare them", _STUDY))
 

@@ -7,7 +7,7 @@ from math import isnan
 
 import rerun as rr
 
-from comms.mavlink import Endpoint, Message
+from comms.mavlink import Endpoint, numbers_of
 from missions.recording.block import Block
 from missions.recording.columns import Rows
 from missions.recording.scene import Scene
@@ -44,7 +44,7 @@ class Messages:
         for (uid, _), frame in self._newest.items():
             for message in self._reader.receive(frame):
                 path = f"/mavlink/{self._scene.agent_names[uid]}/{message.get_type()}"
-                if numbers := _numbers(message):
+                if numbers := {name: _known(number) for name, number in numbers_of(message).items()}:
                     yield from self._names(path, list(numbers))
                     yield Rows(path, at, _vector(rr.Scalars.columns(scalars=list(numbers.values())), len(numbers)))
         self._newest.clear()
@@ -59,18 +59,6 @@ def _vector(columns: rr.ComponentColumnList, width: int) -> rr.ComponentColumnLi
     return columns.partition([width])
 
 
-def _numbers(message: Message) -> dict[str, float]:
-    """A message's numbers by the names of their fields, arrays flattened; texts are left out."""
-    numbers: dict[str, float] = {}
-    for name in message.fieldnames:
-        value = getattr(message, name)
-        if isinstance(value, (int, float)):
-            numbers[name] = _known(value)
-        elif isinstance(value, (list, tuple)):
-            numbers |= {f"{name}[{place}]": _known(part) for place, part in enumerate(value)}
-    return numbers
-
-
 def _known(value: float) -> float:
     """A number; 0 for "not given": NaN is not equal to itself, and equal missions shall give equal recordings."""
-    return 0.0 if isnan(value) else float(value)
+    return 0.0 if isnan(value) else value

@@ -1,0 +1,104 @@
+"""Flight logs become recordings: what is in a log is in the recording, whatever else is in the file."""
+
+from __future__ import annotations
+
+import struct
+from pathlib import Path
+
+import pyarrow as pa
+import pytest
+import rerun as rr
+from hypothesis import given
+from hypothesis import strategies as st
+from pymavlink.dialects.v20 import ardupilotmega as dialect
+from rerun.chunk import RrdReader
+
+from missions.cli import main
+from missions.flightlog import read_log
+
+BEGAN_US = 1_700_000_000_000_000
+HEARTBEAT = dialect.MAVLink_heartbeat_message(2, 3, 81, 4, 3, 3)
+PLACE = dialect.MAVLink_global_position_int_message(1000, 473977000, 85456000, 500_000, 12_500, 300, -400, 0, 9000)
+
+
+def _entry(message: object, *, after_s: float = 0.0, system: int = 1, version: int = 2) -> bytes:
+    codec = dialect.MAVLink(None, srcSystem=system, srcComponent=1)
+    frame = message.pack(codec, force_mavlink1=version == 1)  # type: ignore[attr-defined]
+    return struct.pack(">Q", BEGAN_US + round(after_s * 1e6)) + frame
+
+
+@pytest.mark.parametrize("version", [1, 2])
+def test_messages_and_times_come_back(version: int) -> None:
+    data = _entry(HEARTBEAT, version=version) + _entry(PLACE, after_s=1.5, version=version)
+    log = read_log(data)
+    assert [entry.message.get_type() for entry in log.entries] == ["HEARTBEAT", "GLOBAL_POSITION_INT"]
+    assert [entry.unix_s - BEGAN_US / 1e6 for entry in log.entries] == pytest.approx([0.0, 1.5])
+    assert log.skipped_bytes == 0
+
+
+@pytest.mark.parametrize("cut", [1, 8, 9, 15, 20])
+def test_a_torn_end_costs_what_is_torn(cut: int) -> None:
+    whole, torn = _entry(HEARTBEAT), _entry(PLACE)
+    log = read_log(whole + torn[:cut])
+    assert len(log.entries) == 1
+    assert log.skipped_bytes == cut
+
+
+@given(before=st.binary(max_size=400), after=st.binary(max_size=400))
+def test_rubbish_hides_no_message_and_never_raises(before: bytes, after: bytes) -> None:
+    read_log(before)
+    kinds = [entry.message.get_type() for entry in read_log(_entry(HEARTBEAT) + before + _entry(PLACE) + after).entries]
+    assert kinds == ["HEARTBEAT", "GLOBAL_POSITION_INT"]
+
+
+def test_a_flipped_bit_costs_one_message() -> None:
+    data = bytearray(_entry(HEARTBEAT) + _entry(PLACE) + _entry(HEARTBEAT))
+    data[len(_entry(HEARTBEAT)) + 8 + 12] ^= 0x10
+    assert [entry.message.get_type() for entry in read_log(bytes(data)).entries] == ["HEARTBEAT", "HEARTBEAT"]
+
+
+def _column(path: Path, entity: str, component: str) -> list[object]:
+    values: list[object] = []
+    for chunk in RrdReader(path).stream().filter(content=entity, components=component, is_static=False).to_chunks():
+        values += pa.record_batch(chunk.to_record_batch()).column(component).to_pylist()
+    return values
+
+
+def test_a_flight_is_in_the_recording(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    rr.set_strict_mode(True)
+    text = dialect.MAVLink_statustext_message(4, b"EKF variance")
+    landed = dialect.MAVLink_heartbeat_message(2, 3, 209, 9, 3, 3)
+    plane = dialect.MAVLink_heartbeat_message(1, 3, 81, 4, 3, 3)
+    first = [_entry(HEARTBEAT), _entry(PLACE, after_s=1), _entry(text, after_s=2), _entry(landed, after_s=3)]
+    (tmp_path / "a.tlog").write_bytes(b"".join(first))
+    (tmp_path / "b.tlog").write_bytes(_entry(plane, system=9) + _entry(HEARTBEAT, system=255))
+    out = tmp_path / "out.rrd"
+    assert main(["import", str(tmp_path / "a.tlog"), str(tmp_path / "b.tlog"), "--to", str(out)]) == 0
+    assert capsys.readouterr().out.strip() == f"{out}: V1, V9, 6 messages in 0:03.0"
+    assert _column(out, "/vehicles/V1/mode", "StateChange:state") == [["GUIDED, disarmed"], ["LAND, armed"]]
+    assert _column(out, "/vehicles/V9/mode", "StateChange:state") == [["mode 4, disarmed"]]
+    assert _column(out, "/log/V1", "TextLog:text") == [["V1  EKF variance"]]
+    assert _column(out, "/charts/0/V1", "Scalars:scalars") == [[12.5]]
+    assert _column(out, "/charts/1/V1", "Scalars:scalars") == [[5.0]]
+    assert _column(out, "/geo/V1", "GeoPoints:positions") == [[pytest.approx([47.3977, 8.5456])]]
+    assert not out.with_name("out.rrd.part").exists()
+
+
+def test_what_a_launch_kept_is_read_back(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    launch = ["launch", "narrow", "--duration", "5", "--set", "agents.count=2", "--tlog", str(tmp_path / "logs")]
+    assert main(launch) == 0
+    logs = sorted(map(str, (tmp_path / "logs").iterdir()))
+    capsys.readouterr()
+    assert main(["import", *logs, "--to", str(tmp_path / "out.rrd")]) == 0
+    told = capsys.readouterr().out
+    assert "V1, V2," in told
+    assert "left out" not in told
+
+
+def test_what_is_no_log_is_bad_input(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    odd, out = tmp_path / "odd.tlog", tmp_path / "out.rrd"
+    odd.write_bytes(bytes(1000))
+    assert main(["import", str(odd), "--to", str(out)]) == 2
+    assert "got no MAVLink; allowed: a .tlog" in capsys.readouterr().err
+    assert main(["import", str(tmp_path / "missing.tlog"), "--to", str(out)]) == 2
+    assert not out.exists()
