@@ -13,6 +13,7 @@ from missions.recording.columns import Rows
 from missions.recording.scene import Scene
 
 _STEP_S = 1.0
+_FRAME_COUNTS = 4
 _UNKNOWN = 0.0  # a battery nobody has heard of yet, beside others known; NaN is not equal to itself
 
 
@@ -43,7 +44,7 @@ class Metrics:
             span_s = seen.time_s - before.time_s
             rates.append([(now - then) / span_s for now, then in zip(_frames(seen), _frames(before), strict=True)])
             since.append(seen)
-        yield Rows("/metrics/net", Block(self._scene, since), _vectors(rates, len(_frames(block.observations[0]))))
+        yield Rows("/metrics/net", Block(self._scene, since), _vectors(rates, _FRAME_COUNTS))
 
 
 def _frames(seen: Observation) -> tuple[int, ...]:

@@ -6,9 +6,11 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
+from urllib.request import urlopen
 
 import numpy as np
 import pyarrow as pa
@@ -231,6 +233,38 @@ class TestStory:
             )
         }
         assert lines == {("WARN", 0xFFB020FF), ("INFO", ACTIVITY_COLORS[Activity.FOLLOW])}
+
+
+class TestLive:
+    def test_a_page_for_browsers_is_served_on_this_machine_while_the_mission_lasts(
+        self, scene: Scene, observations: list[Observation], tmp_path: Path
+    ) -> None:
+        path = tmp_path / "live.rrd"
+        with Recorder(path, scene=scene, web=True) as recorder:
+            assert recorder.page_url is not None
+            assert recorder.server_url is not None
+            assert "//127.0.0.1:" in recorder.page_url
+            assert "//127.0.0.1:" in recorder.server_url
+            for observation in observations:
+                recorder.observe(observation)
+            assert b"Rerun" in _fetch(recorder.page_url)
+        assert list(_column(path, "/world/agents/body", "Points3D:positions")) == list(range(TICKS))
+        with pytest.raises(OSError, match="refused"):
+            urlopen(recorder.page_url, timeout=5.0)
+
+
+def _fetch(url: str) -> bytes:
+    """What a server says that is about to start."""
+    until = time.monotonic() + 20.0
+    while True:
+        try:
+            with urlopen(url, timeout=5.0) as answer:
+                found: bytes = answer.read()
+                return found
+        except OSError:
+            if time.monotonic() > until:
+                raise
+            time.sleep(0.1)
 
 
 class TestTrouble:
