@@ -142,6 +142,13 @@ CASES: dict[str, tuple[str, list[str]]] = {
     "links without the kind": ("name: m\nagents: {count: 1}\nvehicle: {links: ['tcp:127.0.0.1:5760']}\n", [
         ":3: vehicle.links: got a list; allowed: none where vehicle.kind is not link",
     ]),
+    "slow setpoints of a px4": ("name: m\ntick_s: 0.5\npolicy: {tag_lease_s: 1}\nvehicle: {flavor: px4}\n", [
+        ":2: tick_s: got 0.5; "
+        "allowed: at most 0.4 where vehicle.flavor is px4: a PX4 wants setpoints at more than 2 Hz",
+    ]),
+    "a flavor of no autopilot": ("name: m\nvehicle: {flavor: px5}\n", [
+        ':2: vehicle.flavor: got "px5"; allowed: ardupilot or px4',
+    ]),
     "slow setpoints": (
         "name: m\ntick_s: 0.5\nagents: {count: 1}\npolicy: {tag_lease_s: 1}\n"
         "vehicle: {kind: link, links: ['tcp:127.0.0.1:5760']}\n",

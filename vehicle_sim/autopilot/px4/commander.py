@@ -153,11 +153,12 @@ class Commander(Autopilot):
         """Choose TAKEOFF, to `altitude_m` above the sea or (None) a little above here; armed it begins at once."""
         if self.armed and not can_run(self, Mode.TAKEOFF):
             return False
+        again = self.mode is Mode.TAKEOFF
         self.guidance.takeoff_altitude_m = altitude_m
-        done = self.set_mode(Mode.TAKEOFF)
-        if done and self.armed:
-            self.guidance.enter(self.mode, self.now_s)
-        return done
+        self.set_mode(Mode.TAKEOFF)
+        if again:
+            self.guidance.enter(Mode.TAKEOFF, self.now_s)
+        return True
 
     def start_mission(self) -> bool:
         """MISSION_START: choose it, and arm."""
