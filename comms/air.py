@@ -5,6 +5,7 @@ Range is thus a fact of the world, not a promise of the receiver: an agent canno
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -12,6 +13,8 @@ from comms import link
 from comms.disturbance import CALM, Disturbance
 from comms.keys import Keys, sender
 from comms.session import Bus, Put
+
+MAX_SPOKEN_PER_AGENT = 64  # frames in a tick; beyond it the oldest go
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,7 +52,8 @@ class Air:
         self._n_agents = n_agents
         self._tick_s = tick_s
         self._delay_ticks = link.delay_ticks(model.latency_s, tick_s)
-        self._spoken: list[tuple[int, bytes]] = []
+        # Frames may come from another thread while others are carried.
+        self._spoken: deque[tuple[int, bytes]] = deque(maxlen=MAX_SPOKEN_PER_AGENT * n_agents)
         self._under_way: dict[int, list[tuple[int, int, bytes]]] = {}  # by due tick: (dst, src, payload)
         self._bus = bus
         self._keys = keys
@@ -59,6 +63,11 @@ class Air:
         self.broken: tuple[tuple[int, int], ...] = ()
         self.due = [0] * n_agents
         bus.subscribe(keys.every_tx, self._hear)
+
+    @property
+    def waiting(self) -> int:
+        """How many frames have been spoken and were not carried yet."""
+        return len(self._spoken)
 
     def _hear(self, key: str, payload: bytes) -> None:
         src = sender(key)
@@ -75,8 +84,9 @@ class Air:
         """
         range_m, count = self._model.range_m, self.count
         broken: list[tuple[int, int]] = []
-        self._spoken.sort(key=lambda spoken: spoken[0])
-        for src, payload in self._spoken:
+        spoken = [self._spoken.popleft() for _ in range(len(self._spoken))]
+        spoken.sort(key=lambda frame: frame[0])
+        for src, payload in spoken:
             count.sent += 1
             count.bytes += len(payload)
             x, y = positions_m[src]
@@ -91,7 +101,6 @@ class Air:
                     self._under_way.setdefault(tick + delay_ticks, []).append((dst, src, payload))
                 else:
                     broken.append((src, dst))
-        self._spoken.clear()
         count.lost += len(broken)
         self.broken = tuple(broken)
         self.due = [0] * self._n_agents

@@ -2,8 +2,14 @@
 
     swarm/@v1/<mission>/tx/<uid>             agent -> air: one frame per tick
     swarm/@v1/<mission>/rx/<uid>/<src>       air -> agent: what got through
+    swarm/@v1/<mission>/alive/<who>          liveliness token: of an agent (its uid), of the world, of the recorder
+    swarm/@v1/<mission>/cmd/<uid>/<verb>     queryable of an agent: what people tell it, with a result
+    swarm/@v1/<mission>/@sim/cue/<uid>       world -> that agent alone: a tick begins, and what its sensor sees
+    swarm/@v1/<mission>/@sim/done/<uid>      agent -> world: the tick is done, and where its vehicle truly is
+    swarm/@v1/<mission>/@sim/truth           world -> recorder: every tick whole
+    swarm/@v1/<mission>/@sim/kept            recorder -> world: how far it has got
 
-`@v1` seals the tree: a plain `**` of somebody else does not match it.
+`@v1` and `@sim` seal their trees: a plain `**` of somebody else does not match them.
 """
 
 from __future__ import annotations
@@ -11,6 +17,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
+WORLD, RECORDER = "world", "recorder"
 _ROOT = "swarm/@v1"
 _MISSION = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
 
@@ -48,8 +55,44 @@ class Keys:
         """What agent `uid` subscribes to: its own receiver and nobody else's."""
         return f"{_ROOT}/{self.mission}/rx/{uid}/*"
 
+    def alive(self, who: int | str) -> str:
+        """The token that says `who` is there: an agent's uid, WORLD or RECORDER."""
+        return f"{_ROOT}/{self.mission}/alive/{who}"
+
+    @property
+    def every_alive(self) -> str:
+        """Everybody's token."""
+        return f"{_ROOT}/{self.mission}/alive/*"
+
+    def command(self, uid: int, verb: str) -> str:
+        """Where agent `uid` takes a command from people."""
+        return f"{_ROOT}/{self.mission}/cmd/{uid}/{verb}"
+
+    def cue(self, uid: int) -> str:
+        """Where the world tells agent `uid` that a tick begins."""
+        return f"{_ROOT}/{self.mission}/@sim/cue/{uid}"
+
+    def done(self, uid: int) -> str:
+        """Where agent `uid` tells the world that a tick is done."""
+        return f"{_ROOT}/{self.mission}/@sim/done/{uid}"
+
+    @property
+    def every_done(self) -> str:
+        """What the world subscribes to."""
+        return f"{_ROOT}/{self.mission}/@sim/done/*"
+
+    @property
+    def truth(self) -> str:
+        """Where the world tells the recorder everything."""
+        return f"{_ROOT}/{self.mission}/@sim/truth"
+
+    @property
+    def kept(self) -> str:
+        """Where the recorder tells the world how far it has got."""
+        return f"{_ROOT}/{self.mission}/@sim/kept"
+
 
 def sender(key: str) -> int | None:
-    """Who spoke on a `tx` or `rx` key: its last chunk; None if that is not a number."""
+    """Whom a `tx`, `rx`, `done` or `alive` key names: its last chunk; None if that is not a number."""
     chunk = key.rpartition("/")[2]
     return int(chunk) if chunk.isascii() and chunk.isdigit() and len(chunk) <= 9 else None

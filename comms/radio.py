@@ -31,6 +31,7 @@ class Radio:
     """Agent `uid`'s radio on a bus: `send` a frame, `drain` what has arrived."""
 
     def __init__(self, bus: Bus, *, keys: Keys, uid: int) -> None:
+        self.uid = uid
         self._put = bus.publisher(keys.tx(uid))
         self._arrived: deque[tuple[str, bytes]] = deque(maxlen=MAX_WAITING)
         self._last_seq: dict[int, int] = {}

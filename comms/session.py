@@ -5,14 +5,15 @@
         put = bus.publisher("a/1")
         put(b"hello")                        # on_sample("a/1", b"hello") has run when put returns
 
-Constructors touch nothing: the session opens and closes with the `with` block.
+Between processes: one `open_router`, and an `open_client` in each of the others. Constructors touch nothing: the
+session opens and closes with the `with` block.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager
 from typing import Any, Protocol
 
 import zenoh
@@ -29,17 +30,50 @@ class Bus(Protocol):
     def subscribe(self, key_expression: str, on_sample: OnSample) -> None: ...
 
 
-class ZenohBus:
-    """A bus on an open zenoh session; see `open_local_bus`."""
+class Question(Protocol):
+    """A question that waits for its answer: any thread may give it, once, but not the callback that brought it."""
 
-    def __init__(self, session: Any) -> None:
+    @property
+    def key(self) -> str: ...
+
+    def answer(self, payload: bytes) -> None: ...
+
+
+class Network(Bus, Protocol):
+    """A bus between processes, with who is there, and questions."""
+
+    def declare_alive(self, key: str) -> None: ...
+
+    def watch(self, key_expression: str, on_change: Callable[[str, bool], None]) -> None: ...
+
+    def alive(self, key_expression: str) -> list[str]: ...
+
+    def answer(self, key_expression: str, on_question: Callable[[Question], None]) -> None: ...
+
+    def ask(self, key_expression: str, *, timeout_s: float) -> list[tuple[str, bytes]]: ...
+
+
+class BusError(Exception):
+    """A session cannot be opened; the text says why, and what may help."""
+
+
+class ZenohBus:
+    """A bus on an open zenoh session; see `open_local_bus`, `open_router` and `open_client`.
+
+    Args:
+        lossless: wait rather than drop when a receiver is slow.
+    """
+
+    def __init__(self, session: Any, *, lossless: bool = False) -> None:
         self._session = session
+        self._congestion = zenoh.CongestionControl.BLOCK if lossless else zenoh.CongestionControl.DROP
+        self._kept: list[Any] = []  # what ends when nobody holds it
 
     def publisher(self, key: str) -> Put:
-        """A declared publisher for frames: late ones are dropped rather than waited for, and they go first."""
+        """A declared publisher for frames: they go first, and unless the bus is lossless late ones are dropped."""
         publisher = self._session.declare_publisher(
             key,
-            congestion_control=zenoh.CongestionControl.DROP,
+            congestion_control=self._congestion,
             priority=zenoh.Priority.INTERACTIVE_HIGH,
             express=True,
         )
@@ -52,26 +86,125 @@ class ZenohBus:
         def forward(sample: Any) -> None:
             on_sample(str(sample.key_expr), sample.payload.to_bytes())
 
-        self._session.declare_subscriber(key_expression, zenoh.handlers.Callback(forward, indirect=False))
+        self._session.declare_subscriber(key_expression, _direct(forward))
+
+    def declare_alive(self, key: str) -> None:
+        """Be seen there until the session closes or its process dies."""
+        self._kept.append(self._session.liveliness().declare_token(key))
+
+    def watch(self, key_expression: str, on_change: Callable[[str, bool], None]) -> None:
+        """Call `on_change(key, is_there)` for all that is there already, comes or goes."""
+
+        def forward(sample: Any) -> None:
+            on_change(str(sample.key_expr), sample.kind == zenoh.SampleKind.PUT)
+
+        watching = self._session.liveliness().declare_subscriber(key_expression, _direct(forward), history=True)
+        self._kept.append(watching)
+
+    def alive(self, key_expression: str) -> list[str]:
+        """Whose keys are there now."""
+        replies = self._session.liveliness().get(key_expression, timeout=_LOOK_S)
+        return sorted({str(reply.ok.key_expr) for reply in replies if reply.ok is not None})
+
+    def answer(self, key_expression: str, on_question: Callable[[Question], None]) -> None:
+        """Call `on_question` for every question asked there; it must only enqueue."""
+        answering = self._session.declare_queryable(
+            key_expression, _direct(lambda query: on_question(_ZenohQuestion(query)))
+        )
+        self._kept.append(answering)
+
+    def ask(self, key_expression: str, *, timeout_s: float) -> list[tuple[str, bytes]]:
+        """Ask everybody there; (key, payload) of each answer that comes in time."""
+        replies = self._session.get(
+            key_expression,
+            target=zenoh.QueryTarget.ALL,
+            consolidation=zenoh.ConsolidationMode.NONE,
+            timeout=timeout_s,
+        )
+        found = [reply.ok for reply in replies]
+        return [(str(sample.key_expr), sample.payload.to_bytes()) for sample in found if sample is not None]
+
+
+class _ZenohQuestion:
+    def __init__(self, query: Any) -> None:
+        self._query = query
+        self.key = str(query.key_expr)
+
+    def answer(self, payload: bytes) -> None:
+        with self._query as query:
+            query.reply(self.key, payload)
+
+
+def _direct(function: Callable[[Any], None]) -> Any:
+    return zenoh.handlers.Callback(function, indirect=False)
 
 
 @contextmanager
 def open_local_bus() -> Iterator[ZenohBus]:
     """One isolated session for one process: real zenoh pub/sub, no network at all, deliveries in order."""
-    zenoh.init_log_from_env_or("error")
-    with zenoh.open(_isolated()) as session:
+    with _open({"mode": "peer"}) as session:
         yield ZenohBus(session)
 
 
-def _isolated() -> Any:
+@contextmanager
+def open_router(endpoint: str, *, lossless: bool) -> Iterator[ZenohBus]:
+    """The session through which all others of a mission speak: it listens there (`tcp/127.0.0.1:7447`).
+
+    Raises:
+        BusError: it cannot listen there.
+    """
+    with ExitStack() as stack:
+        try:
+            session = stack.enter_context(_open({"mode": "router", "listen/endpoints": [endpoint]}))
+        except zenoh.ZError as error:
+            raise BusError(
+                f"cannot listen on {endpoint}: is it a free port of this machine? ({_reason(error)})"
+            ) from error
+        yield ZenohBus(session, lossless=lossless)
+
+
+@contextmanager
+def open_client(endpoint: str, *, lossless: bool, patience_s: float) -> Iterator[ZenohBus]:
+    """A session behind the router that listens there; after an outage it connects again by itself.
+
+    Raises:
+        BusError: nobody listens there in `patience_s`.
+    """
+    settings = {
+        "mode": "client",
+        "connect/endpoints": [endpoint],
+        "connect/timeout_ms": round(patience_s * 1000),
+        "connect/exit_on_failure": True,
+        "connect/retry": {"period_init_ms": 100, "period_max_ms": 300, "period_increase_factor": 1.5},
+    }
+    with ExitStack() as stack:
+        try:
+            session = stack.enter_context(_open(settings))
+        except zenoh.ZError as error:
+            raise BusError(f"nobody has answered on {endpoint} for {patience_s:g} s ({_reason(error)})") from error
+        yield ZenohBus(session, lossless=lossless)
+
+
+@contextmanager
+def _open(settings: Mapping[str, Any]) -> Iterator[Any]:
+    zenoh.init_log_from_env_or("error")
     config = zenoh.Config()
-    for key, value in {
-        "mode": "peer",
-        "listen/endpoints": [],
-        "connect/endpoints": [],
-        "scouting/multicast/enabled": False,
-        "scouting/gossip/enabled": False,
-        "transport/shared_memory/enabled": False,
-    }.items():
+    for key, value in (_QUIET | dict(settings)).items():
         config.insert_json5(key, json.dumps(value))
-    return config
+    with zenoh.open(config) as session:
+        yield session
+
+
+def _reason(error: Exception) -> str:
+    """What zenoh says, without where in its source it says so."""
+    return str(error).partition(" at /")[0]
+
+
+_LOOK_S = 1.0
+_QUIET: dict[str, Any] = {
+    "listen/endpoints": [],
+    "connect/endpoints": [],
+    "scouting/multicast/enabled": False,
+    "scouting/gossip/enabled": False,
+    "transport/shared_memory/enabled": False,
+}

@@ -12,10 +12,20 @@ import re
 import sys
 from collections.abc import Callable, Sequence
 from importlib.util import find_spec
-from math import inf, isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from missions.arguments import count, new_file, report, whole
+from missions.daemons.arguments import (
+    AGENT,
+    RECORD,
+    WORLD,
+    add_processes,
+    add_speed,
+    agent_options,
+    record_options,
+    world_options,
+)
 from missions.load import LIBRARY, bundled_names, load_mission
 from missions.mission import Mission
 from missions.options import LaunchOptions, speed_of
@@ -66,6 +76,10 @@ def _joined(arguments: Sequence[str]) -> list[str]:
 def launch(options: argparse.Namespace) -> int:
     """Fly a mission."""
     mission = _mission(options)
+    if options.processes:
+        from missions.daemons import verbs
+
+        return verbs.launch(mission, options)
     from missions.launch import launch as fly
 
     speed = speed_of(mission, options.speed)
@@ -80,6 +94,27 @@ def launch(options: argparse.Namespace) -> int:
         gcs_key=options.gcs_signing_key,
     )
     return fly(mission, options=settings)
+
+
+def record(options: argparse.Namespace) -> int:
+    """Record a mission that other processes fly."""
+    from missions.daemons import verbs
+
+    return verbs.record(_mission(options), options)
+
+
+def world(options: argparse.Namespace) -> int:
+    """Run a mission's world for agents in other processes."""
+    from missions.daemons import verbs
+
+    return verbs.world(_mission(options), options)
+
+
+def agent(options: argparse.Namespace) -> int:
+    """Run some of a mission's agents."""
+    from missions.daemons import verbs
+
+    return verbs.agent(_mission(options), options)
 
 
 def check(options: argparse.Namespace) -> int:
@@ -117,6 +152,12 @@ def plan(options: argparse.Namespace) -> int:
     )
     with console.capture() as printed:
         print_plan(plan_mission(mission), console)
+        if options.processes:
+            from missions.daemons.processes import process_table
+            from missions.daemons.verbs import processes
+
+            console.print()
+            console.print(process_table(processes(mission, options)))
     sys.stdout.writelines(f"{line.rstrip()}\n" for line in printed.get().splitlines())
     return DONE
 
@@ -217,7 +258,7 @@ _TOP = """examples:
 
 _LAUNCH = """examples:
   swarm launch quickstart --record out/q.rrd --report out/q.json
-  swarm launch narrow --seed 7 --duration 60 --speed 1 --view
+  swarm launch narrow --seed 7 --duration 60 --processes              a process for each agent
   swarm launch quickstart --speed 1 --gcs udpout:127.0.0.1:14550      watched by a ground station
   swarm launch narrow --tlog out/logs; mavlogdump.py out/logs/agent-0.tlog
   swarm launch my.yaml --set radio.loss=0.3 --set 'targets={motion: static, count: 4}'"""
@@ -232,6 +273,7 @@ Every key, its meaning and default: `swarm plan reference`, and the comments of 
 _PLAN = """examples:
   swarm plan quickstart
   swarm plan my.yaml --seed 3 --set agents.deployment.radius_m=5
+  swarm plan quickstart --processes                  which processes a launch would start
 
 Prints the agents with their system ids, layers and starting places, the phases, the coverage floor
 1 - (1 - A_sensed / A_arena) ^ agents, and every setting beside its default. Flies nothing."""
@@ -282,33 +324,31 @@ def _parser() -> argparse.ArgumentParser:
 
     flying = _verb(verbs, "launch", launch, "fly a mission", _LAUNCH)
     _one_mission(flying)
-    flying.add_argument(
-        "--speed",
-        type=_speed,
-        metavar="X",
-        help="X times real time, or max: as fast as it goes (default; with vehicle.links: 1)",
-    )
-    flying.add_argument("--record", type=_new_file, metavar="F.rrd", help="write a recording for rerun")
-    flying.add_argument(
-        "--tlog", type=Path, metavar="DIR", help="write a telemetry log of each link, for MAVProxy and mavlogdump"
-    )
-    flying.add_argument("--report", type=_report, metavar="F.json", help="write the report; - is standard output")
+    add_speed(flying)
+    flying.add_argument("--record", type=new_file, metavar="F.rrd", help="write a recording for rerun")
+    flying.add_argument("--tlog", type=Path, metavar="DIR", help="write a log of each link, for MAVProxy")
+    flying.add_argument("--report", type=report, metavar="F.json", help="write the report; - is standard output")
     flying.add_argument(
         "--gcs",
         type=link,
         action="append",
         default=[],
         metavar="URL",
-        help="show the whole swarm to ground stations there, such as udpout:127.0.0.1:14550; may be repeated",
+        help="show the swarm to ground stations; may be repeated",
     )
     flying.add_argument(
         "--gcs-signing-key",
         type=signing_key,
         metavar="FILE",
-        help="sign these links, with the key or passphrase in FILE",
+        help="sign these links, with the key in FILE",
     )
     flying.add_argument("--view", action="store_true", help="open a viewer and watch")
-    flying.add_argument("--web", action="store_true", help="serve a viewer to browsers on this computer, and watch")
+    flying.add_argument("--web", action="store_true", help="serve a viewer to browsers on this computer")
+    add_processes(flying)
+
+    _one_mission(world_options(_verb(verbs, "world", world, "run a mission's world for other processes", WORLD)))
+    _one_mission(agent_options(_verb(verbs, "agent", agent, "run one agent of a mission, or several", AGENT)))
+    _one_mission(record_options(_verb(verbs, "record", record, "record a mission of other processes", RECORD)))
 
     checking = _verb(verbs, "check", check, "validate missions", _CHECK)
     checking.add_argument("missions", nargs="+", metavar="MISSION", help=_mission_help())
@@ -316,6 +356,7 @@ def _parser() -> argparse.ArgumentParser:
 
     planning = _verb(verbs, "plan", plan, "show what a mission would run", _PLAN)
     _one_mission(planning)
+    add_processes(planning)
 
     add_sim_options(_verb(verbs, "sim", sim, "fly one vehicle in real time, as ArduCopter SITL does", SIM_EXAMPLES))
 
@@ -323,7 +364,7 @@ def _parser() -> argparse.ArgumentParser:
 
     importing = _verb(verbs, "import", import_, "make a recording of flight logs", _IMPORT)
     importing.add_argument("logs", nargs="+", type=Path, metavar="F.tlog", help="a telemetry log")
-    importing.add_argument("--to", type=_new_file, required=True, metavar="F.rrd", help="the recording to write")
+    importing.add_argument("--to", type=new_file, required=True, metavar="F.rrd", help="the recording to write")
 
     _add_study(_verb(verbs, "study", study, "fly many missions and compare them", _STUDY))
 
@@ -377,8 +418,8 @@ def _add_study(parser: argparse.ArgumentParser) -> None:
     studies = sorted(path.stem for path in (LIBRARY / "studies").glob("*.yaml"))
     about = f"path of a study file, a bundled study ({', '.join(studies)}), paper, or merge DIR..."
     parser.add_argument("study", nargs="+", metavar="STUDY", help=about)
-    parser.add_argument("--runs", type=_count, metavar="N", help="fly every point N times")
-    parser.add_argument("--seed", type=_whole, metavar="N", help="the first run's seed; the next run has the next")
+    parser.add_argument("--runs", type=count, metavar="N", help="fly every point N times")
+    parser.add_argument("--seed", type=whole, metavar="N", help="the first run's seed; the next run has the next")
     parser.add_argument(
         "--policy", action="append", default=[], metavar="P", help="fly this policy, and not all; may be repeated"
     )
@@ -387,17 +428,17 @@ def _add_study(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--fresh", action="store_true", help="throw away what the folder holds, and fly all again")
     parser.add_argument("--shard", type=_shard, metavar="i/N", help="fly part i of N alone")
     parser.add_argument("--dask", metavar="ADDRESS", help="fly on the Dask cluster whose scheduler is there")
-    parser.add_argument("--threads", type=_count, metavar="N", help="use so many cores, and not all")
+    parser.add_argument("--threads", type=count, metavar="N", help="use so many cores, and not all")
 
 
 def _add_train(parser: argparse.ArgumentParser) -> None:
     about = f"{_mission_help()}; quickstart unless given"
     parser.add_argument("mission", nargs="?", default="quickstart", metavar="MISSION", help=about)
-    parser.add_argument("--runs", type=_count, default=50, metavar="N", help="learn from N runs (default: 50)")
-    parser.add_argument("--seed", type=_whole, default=1, metavar="N", help="the first run's seed, and the fit's")
+    parser.add_argument("--runs", type=count, default=50, metavar="N", help="learn from N runs (default: 50)")
+    parser.add_argument("--seed", type=whole, default=1, metavar="N", help="the first run's seed, and the fit's")
     _add_set(parser)
     parser.add_argument(
-        "--out", type=_new_file, default=Path("weights.json"), metavar="F.json", help="the file of weights to write"
+        "--out", type=new_file, default=Path("weights.json"), metavar="F.json", help="the file of weights to write"
     )
 
 
@@ -416,30 +457,6 @@ def _overrides(options: argparse.Namespace) -> list[Override]:
     return [*(Override(text) for text in options.set), *own]
 
 
-def _speed(text: str) -> float:
-    if text == "max":
-        return inf
-    try:
-        speed = float(text)
-    except ValueError:
-        speed = 0.0
-    if not (speed > 0 and isfinite(speed)):
-        raise argparse.ArgumentTypeError(f'got "{text}"; allowed: a number above 0, or max')
-    return speed
-
-
-def _whole(text: str) -> int:
-    if not (text.isascii() and text.isdigit()):
-        raise argparse.ArgumentTypeError(f'got "{text}"; allowed: a whole number, 0 or more')
-    return int(text)
-
-
-def _count(text: str) -> int:
-    if not (text.isascii() and text.isdigit() and int(text) > 0):
-        raise argparse.ArgumentTypeError(f'got "{text}"; allowed: a whole number above 0')
-    return int(text)
-
-
 def _shard(text: str) -> Shard:
     from missions.study.shards import Shard
 
@@ -449,14 +466,5 @@ def _shard(text: str) -> Shard:
     return Shard(int(index), int(count))
 
 
-def _new_file(text: str) -> Path:
-    path = Path(text)
-    if not path.parent.is_dir():
-        raise argparse.ArgumentTypeError(f'got "{text}"; allowed: a file in a directory that exists')
-    if text == "-" or (path.exists() and not path.is_file()):
-        raise argparse.ArgumentTypeError(f'got "{text}"; allowed: an ordinary file')
-    return path
-
-
-def _report(text: str) -> str:
-    return text if text == "-" else str(_new_file(text))
+if __name__ == "__main__":
+    sys.exit(main())

@@ -198,10 +198,12 @@ def fence(mission: Mission) -> Fence:
     return polygon([(east, north), (-east, north), (-east, -north), (east, -north)])
 
 
-def vehicles(mission: Mission, pilots: Iterable[Pilot], transports: Mapping[int, Transport]) -> list[Vehicle]:
+def vehicles(
+    mission: Mission, pilots: Iterable[Pilot], transports: Mapping[int, Transport], *, started_at_s: float = 0.0
+) -> list[Vehicle]:
     """These pilots' vehicles: behind their open transports, by uid, or simulated.
 
-    A simulated one stands at its own home and was just switched on.
+    A simulated one stands at its own home and is switched on at that time.
     """
     vehicle, places, homes, firsts = mission.vehicle, deployment(mission), pads(mission), headings(mission)
     config = VehicleConfig(
@@ -226,7 +228,7 @@ def vehicles(mission: Mission, pilots: Iterable[Pilot], transports: Mapping[int,
                 home=homes[uid],
                 heading_rad=atan2(east, north),
                 seed=mission.seed,
-                started_at_s=0.0,
+                started_at_s=started_at_s,
             )
         )
     return parts

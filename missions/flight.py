@@ -11,6 +11,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from types import MappingProxyType
 
 from comms.clock import Pace
+from comms.keys import Keys
+from comms.radio import Radio
 from comms.session import Bus
 from comms.transport import Transport
 from missions.mission import Mission
@@ -36,8 +38,9 @@ class Flight:
         self.mission = mission
         self.side = WorldSide(mission, bus)
         self.world, self.air, self.coverage = self.side.world, self.side.air, self.side.coverage
-        uids = range(mission.agents.count)
-        self.crew = agent_sides(mission, bus, uids, n_targets=len(self.world.places), transports=transports)
+        keys = Keys(mission.name)
+        radios = [Radio(bus, keys=keys, uid=uid) for uid in range(mission.agents.count)]
+        self.crew = agent_sides(mission, radios, n_targets=len(self.world.places), transports=transports)
         self.vehicles = [side.vehicle for side in self.crew]
 
     @property
@@ -66,6 +69,7 @@ class Flight:
         Args:
             stop: asked every tick; once true, the swarm comes home.
         """
+        self.side.meet([side.hello() for side in self.crew])
         fly(self.side, _InProcess(self.crew), pace=pace, observers=observers, stop=stop)
 
 
@@ -74,9 +78,6 @@ class _InProcess:
 
     def __init__(self, sides: Sequence[AgentSide]) -> None:
         self._sides = sides
-
-    def hello(self) -> list[Done]:
-        return [side.hello() for side in self._sides]
 
     def tick(self, cues: Sequence[Cue]) -> list[Done]:
         return [side.tick(cue) for side, cue in zip(self._sides, cues, strict=True)]

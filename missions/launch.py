@@ -3,23 +3,21 @@
 from __future__ import annotations
 
 import signal
-import sys
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from math import acos, isinf
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 
 from comms.clock import Lockstep, Pace, RealTime
 from comms.session import open_local_bus
-from comms.transport import Transport, TransportError, transport_of
 from missions.compose import cos_half_opening
 from missions.faults.costs import Costs
 from missions.flight import Flight
 from missions.ground_link import open_ground_link
+from missions.links import open_transports
 from missions.load import dump_mission
 from missions.log import EventLog
 from missions.metrics import Metrics
@@ -29,7 +27,7 @@ from missions.options import LaunchOptions
 from missions.plan import coverage_floor
 from missions.problems import InputError, OutputError
 from missions.progress import progress_on
-from missions.report import PACKAGES, as_json, as_table, make_report, versions
+from missions.report import PACKAGES, check_files, make_report, publish, versions
 from missions.tlog import tlogs
 from vehicle_sim.autopilot import SimulatedVehicle
 
@@ -71,18 +69,18 @@ def launch(mission: Mission, *, options: LaunchOptions) -> int:
         InputError: what only a launch can find out is wrong (no recorder installed, a file that cannot be written).
     """
     console = Console(stderr=options.report == "-")
-    _check_files(options)
+    check_files(report=options.report, record=options.record)
     metrics, request = Metrics(costs=Costs(mission.faults, tick_s=mission.tick_s)), StopRequest(console)
-    with open_local_bus() as bus, _transports(mission) as transports, request.listening():
+    with (
+        open_local_bus() as bus,
+        open_transports(mission, range(mission.agents.count)) as transports,
+        request.listening(),
+    ):
         flight = Flight(mission, bus, transports)
         began_s = time.monotonic()
         kept = _fly(flight, metrics, request, console, options)
         report = make_report(flight.side, metrics, wall_s=time.monotonic() - began_s, recording=options.record)
-    if options.report == "-":
-        sys.stdout.write(as_json(report))
-    elif options.report is not None:
-        Path(options.report).write_text(as_json(report), encoding="utf-8")
-    console.print(as_table(report))
+    publish(report, to=options.report, console=console)
     if request.asked:
         return STOPPED
     return DONE if flight.complete and kept else FAILED
@@ -121,7 +119,7 @@ def _fly(flight: Flight, metrics: Metrics, request: StopRequest, console: Consol
         )
         observers.append(stack.enter_context(progress))
         try:
-            flight.run(pace=_pace(mission, options), observers=observers, stop=lambda: request.asked)
+            flight.run(pace=pace_of(mission, options.speed), observers=observers, stop=lambda: request.asked)
         finally:
             kept = recorder is None or _closed(recorder, metrics, flight)
         for link in links:
@@ -146,34 +144,9 @@ def _closed(recorder: Recorder, metrics: Metrics, flight: Flight) -> bool:
     return True
 
 
-def _check_files(options: LaunchOptions) -> None:
-    """What cannot be written is found out before takeoff."""
-    report = None if options.report in (None, "-") else Path(str(options.report))
-    if report is not None and options.record is not None and report.resolve() == options.record.resolve():
-        raise InputError(f"--report: got {report}, where the recording goes; allowed: another file")
-    if report is not None:
-        try:
-            report.open("a").close()
-        except OSError as error:
-            raise InputError(
-                f"--report: got {report}; allowed: a file that can be written ({error.strerror})"
-            ) from error
-
-
-@contextmanager
-def _transports(mission: Mission) -> Iterator[dict[int, Transport]]:
-    """The links to vehicles elsewhere, open, by uid."""
-    links = {uid: link for uid, link in enumerate(mission.vehicle.links) if link is not None}
-    with ExitStack() as stack:
-        try:
-            transports = {uid: stack.enter_context(transport_of(link)) for uid, link in links.items()}
-        except TransportError as error:
-            raise InputError(f"vehicle.links: {error}") from error
-        yield transports
-
-
-def _pace(mission: Mission, options: LaunchOptions) -> Pace:
-    return Lockstep() if isinf(options.speed) else RealTime(tick_s=mission.tick_s, speed=options.speed)
+def pace_of(mission: Mission, speed: float) -> Pace:
+    """How the mission's clock goes: `inf` is as fast as it can."""
+    return Lockstep() if isinf(speed) else RealTime(tick_s=mission.tick_s, speed=speed)
 
 
 def explain_every_s(mission: Mission) -> float:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import platform
+import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from importlib.metadata import PackageNotFoundError, version
@@ -15,8 +16,10 @@ from typing import TYPE_CHECKING, Any
 
 from missions.metrics import Metrics
 from missions.plan import coverage_floor
+from missions.problems import InputError
 
 if TYPE_CHECKING:
+    from rich.console import Console
     from rich.table import Table
 
     from missions.sides.world import WorldSide
@@ -118,6 +121,32 @@ def versions(packages: tuple[str, ...]) -> dict[str, str]:
         except PackageNotFoundError:  # run from a source tree that is not installed
             found[package] = "unknown"
     return found
+
+
+def check_files(*, report: str | None, record: Path | None) -> None:
+    """What cannot be written is found out before takeoff.
+
+    Raises:
+        InputError: the report's file cannot, or is the recording's.
+    """
+    if report in (None, "-"):
+        return
+    path = Path(str(report))
+    if record is not None and path.resolve() == record.resolve():
+        raise InputError(f"--report: got {report}, where the recording goes; allowed: another file")
+    try:
+        path.open("a").close()
+    except OSError as error:
+        raise InputError(f"--report: got {report}; allowed: a file that can be written ({error.strerror})") from error
+
+
+def publish(report: Report, *, to: str | None, console: Console) -> None:
+    """Write the report where it was asked for (`-`: standard output), and show it."""
+    if to == "-":
+        sys.stdout.write(as_json(report))
+    elif to is not None:
+        Path(to).write_text(as_json(report), encoding="utf-8")
+    console.print(as_table(report))
 
 
 def as_json(report: Report) -> str:

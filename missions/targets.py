@@ -54,6 +54,12 @@ def herd(mission: Mission) -> Herd:
     )
 
 
+def n_targets(mission: Mission) -> int:
+    """How many targets there are, or will be."""
+    targets = mission.targets
+    return len(herd(mission).places) if isinstance(targets, TrackTargets) else targets.count
+
+
 def _check_place(tracks: Tracks, targets: TrackTargets, arena: Arena) -> None:
     fixes = zip(chain(*tracks.x_m), chain(*tracks.y_m), strict=True)
     if any(edge_distance_m(arena, x, y) >= 0.0 for x, y in fixes):

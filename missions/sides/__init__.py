@@ -1,7 +1,7 @@
 """The two sides of a tick, which one process joins by calls and many processes by messages.
 
     world = WorldSide(mission, bus)                      # targets, sensing, air, phases: what nobody flies
-    crew = agent_sides(mission, bus, range(mission.agents.count), n_targets=len(world.world.places))
+    crew = agent_sides(mission, radios, n_targets=len(world.world.places))
     world.meet([side.hello() for side in crew])
     while not world.over:
         dones = [side.tick(cue) for side, cue in zip(crew, world.cue(late_s))]

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from types import MappingProxyType
 
 from comms.frames import Vec3, swap_enu_ned
-from comms.keys import Keys
 from comms.mavlink import Endpoint
 from comms.radio import Radio
-from comms.session import Bus
 from comms.status import Activity, AgentStatus
 from comms.transport import Transport
 from missions import compose
@@ -121,30 +119,26 @@ class AgentSide:
 
 def agent_sides(
     mission: Mission,
-    bus: Bus,
-    uids: Iterable[int],
+    radios: Sequence[Radio],
     *,
     n_targets: int,
     transports: Mapping[int, Transport] = MappingProxyType({}),
+    started_tick: int = 0,
 ) -> list[AgentSide]:
-    """These agents of a mission, each with its vehicle just switched on, or behind its open transport.
+    """The agents with these radios, each with its vehicle just switched on, or behind its open transport.
+
+    Args:
+        started_tick: when that is; later than 0 for an agent that comes back.
 
     Raises:
         InputError: weights of the learned predictor that cannot be read.
     """
-    agents = compose.agents(mission, uids, n_targets)
-    vehicles = compose.vehicles(mission, [agent.pilot for agent in agents], transports)
-    keys, places, faults = Keys(mission.name), compose.deployment(mission), Schedule(mission)
+    agents = compose.agents(mission, [radio.uid for radio in radios], n_targets)
+    pilots, places, faults = [agent.pilot for agent in agents], compose.deployment(mission), Schedule(mission)
+    vehicles = compose.vehicles(mission, pilots, transports, started_at_s=started_tick * mission.tick_s)
     return [
-        AgentSide(
-            agent,
-            vehicle,
-            Radio(bus, keys=keys, uid=agent.uid),
-            pad_m=(*places[agent.uid], 0.0),
-            tick_s=mission.tick_s,
-            faults=faults,
-        )
-        for agent, vehicle in zip(agents, vehicles, strict=True)
+        AgentSide(agent, vehicle, radio, pad_m=(*places[radio.uid], 0.0), tick_s=mission.tick_s, faults=faults)
+        for agent, vehicle, radio in zip(agents, vehicles, radios, strict=True)
     ]
 
 

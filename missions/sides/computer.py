@@ -58,11 +58,13 @@ class Computer:
         if not self._out:
             self._telemetry = (self._telemetry + telemetry)[:MOST_BYTES_WAITING]
 
+    def due(self, cue: Cue) -> int | None:
+        """How many frames must be at the radio by now; None where nobody waits for them."""
+        return None if cue.frames is None else min(self._backlog + cue.frames, MAX_WAITING)
+
     def _check_inbox(self, cue: Cue, now_s: float) -> None:
-        if cue.frames is None:
-            return
-        due = min(self._backlog + cue.frames, MAX_WAITING)
-        if self.radio.waiting != due:
+        due = self.due(cue)
+        if due is not None and self.radio.waiting != due:
             got = f"{self.radio.waiting} frames arrived of {due}"
             raise RuntimeError(f"lockstep broken at {now_s:.1f} s, agent {self.agent.uid}: {got}")
 

@@ -53,6 +53,8 @@ class Done(msgspec.Struct, frozen=True, kw_only=True, array_like=True):
         spoke: it has sent a frame. ready: on its layer, waiting for the mission.
         unheard: its pilot has given up and its vehicle is not heard: it will not end otherwise.
         pilot, vehicle: MAVLink so far, of the agent and of its vehicle if that is simulated.
+        leaves: it has landed, and is asked to end: nobody need wait for it any longer.
+        fingerprint: in the first one, of the mission that it was given.
     """
 
     tick: int
@@ -64,3 +66,5 @@ class Done(msgspec.Struct, frozen=True, kw_only=True, array_like=True):
     unheard: bool = False
     pilot: LinkCount = LinkCount()
     vehicle: LinkCount = LinkCount()
+    leaves: bool = False
+    fingerprint: str = ""

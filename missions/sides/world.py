@@ -21,9 +21,6 @@ from missions.sides.phases import Phases
 class Crew(Protocol):
     """All agents of a mission, wherever they run."""
 
-    def hello(self) -> Sequence[Done]:
-        """What each says before its first tick, by uid."""
-
     def tick(self, cues: Sequence[Cue]) -> Sequence[Done]:
         """What came of each one's cue, by uid."""
 
@@ -175,13 +172,12 @@ class WorldSide:
 
 
 def fly(world: WorldSide, crew: Crew, *, pace: Pace, observers: Iterable[Observer], stop: Callable[[], bool]) -> None:
-    """Fly a mission until everybody has landed or is lost.
+    """Fly a mission whose crew is met, until everybody has landed or is lost.
 
     Args:
         stop: asked every tick; once true, the swarm comes home.
     """
     observers = tuple(observers)
-    world.meet(crew.hello())
     while not world.over:
         dones = crew.tick(world.cue(pace.begin(world.tick)))
         observation = world.conclude(dones)

@@ -1,0 +1,195 @@
+"""`swarm agent`: one agent with its vehicle in a process of its own, or several on one session.
+
+It says hello until the world cues it, and then does a tick for each cue. Asked to end, it flies home, lands, and goes.
+If the world goes first, it flies home on its own clock.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from time import monotonic, sleep
+
+from msgspec import structs
+
+from comms.clock import Lockstep, Pace, RealTime
+from comms.keys import WORLD, Keys, sender
+from comms.mailbox import Mailbox
+from comms.radio import Radio
+from comms.session import BusError, Network, Put, open_client
+from comms.status import Activity
+from comms.transport import Transport
+from missions.daemons.ending import Ending
+from missions.daemons.log import Log
+from missions.daemons.options import DaemonOptions, fingerprint
+from missions.daemons.wire import OVER, decode_cue, encode
+from missions.links import open_transports
+from missions.mission import Mission
+from missions.sides.agent import AgentSide, agent_sides
+from missions.sides.computer import Computer
+from missions.sides.exchange import Cue, Done
+from missions.sides.phases import RETURN_LIMIT_S
+from missions.targets import n_targets
+
+DONE, FAILED, STOPPED = 0, 1, 130
+
+HELLO_EVERY_S = 0.2
+FRAMES_LATE_S = 10.0  # frames that are under way and do not come for so long are lost
+FRAME_LOOK_S = 1e-4
+
+
+def agent(mission: Mission, uids: Sequence[int], options: DaemonOptions) -> int:
+    """Run these agents of a mission until it is over. Returns the exit code.
+
+    Raises:
+        InputError: a link to a vehicle that cannot be opened.
+    """
+    log = Log(_name(uids), least=options.log_level)
+    ending = Ending(log.info)
+    with ending.listening(leash=options.leash), open_transports(mission, uids) as transports:
+        try:
+            with open_client(options.endpoint, lossless=options.lockstep, patience_s=options.join_s) as bus:
+                daemon = _Daemon(mission, uids, bus, transports, ending=ending, log=log)
+                return daemon.run(join_s=options.join_s)
+        except BusError as error:
+            log.error(f"{error}: does `swarm world {mission.name}` run there?")
+        except KeyboardInterrupt:
+            log.error("ended at once, in the air or not")
+    return STOPPED if ending.interrupted else FAILED
+
+
+@dataclass(slots=True)
+class _Seat:
+    """One agent of this process: its side, where its dones go, and how far it is."""
+
+    side: AgentSide
+    put: Put
+    last: Done
+    met: bool = False  # the world has cued it
+    over: bool = False
+
+
+class _Daemon:
+    def __init__(
+        self,
+        mission: Mission,
+        uids: Sequence[int],
+        bus: Network,
+        transports: dict[int, Transport],
+        *,
+        ending: Ending,
+        log: Log,
+    ) -> None:
+        self._mission = mission
+        self._bus = bus
+        self._transports = transports
+        self._ending = ending
+        self._log = log
+        self._keys = Keys(mission.name)
+        self._mail = Mailbox(uids)
+        self._radios = {uid: Radio(bus, keys=self._keys, uid=uid) for uid in uids}
+        self._world_gone = False
+        self._seats = {uid: self._seat(uid, started_tick=0) for uid in uids}
+
+    def run(self, *, join_s: float) -> int:
+        """Tick until everybody here is over; the exit code."""
+        bus, keys = self._bus, self._keys
+        for uid in self._seats:
+            bus.subscribe(keys.cue(uid), lambda key, payload: self._mail.put(sender(key), payload))
+            bus.declare_alive(keys.alive(uid))
+        bus.watch(keys.alive(WORLD), self._on_world)
+        deadline_s = monotonic() + join_s
+        while self._flying():
+            self._greet()
+            self._mail.wait(self._flying(), timeout_s=HELLO_EVERY_S)
+            for uid, wire in self._mail.take().items():
+                self._take(self._seats[uid], wire)
+            if not any(seat.met for seat in self._seats.values()):
+                if self._ending.asked:
+                    return self._code(DONE)
+                if monotonic() > deadline_s:
+                    self._log.error(f"no word from the world of {self._mission.name} for {join_s:g} s")
+                    return FAILED
+            elif self._world_gone and self._flying():
+                return self._fly_home()
+        return self._code(DONE)
+
+    def _flying(self) -> list[int]:
+        return [uid for uid, seat in self._seats.items() if not seat.over]
+
+    def _code(self, code: int) -> int:
+        return STOPPED if self._ending.interrupted else code
+
+    def _seat(self, uid: int, *, started_tick: int) -> _Seat:
+        [side] = agent_sides(
+            self._mission,
+            [self._radios[uid]],
+            n_targets=n_targets(self._mission),
+            transports=self._transports,
+            started_tick=started_tick,
+        )
+        return _Seat(side, self._bus.publisher(self._keys.done(uid)), side.hello())
+
+    def _greet(self) -> None:
+        for seat in self._seats.values():
+            if not (seat.met or seat.over):
+                seat.put(encode(structs.replace(seat.side.hello(), fingerprint=fingerprint(self._mission))))
+
+    def _take(self, seat: _Seat, wire: bytes) -> None:
+        """One message from the world."""
+        if wire == OVER:
+            seat.over = True
+            return
+        cue = decode_cue(wire)
+        if cue is None:
+            return
+        if not seat.met:
+            if cue.tick > 0:  # it comes back to a mission that is under way: its vehicle is switched on now
+                seat = self._seats[seat.side.uid] = self._seat(seat.side.uid, started_tick=cue.tick)
+            seat.met = True
+        if self._ending.asked:
+            cue = structs.replace(cue, come_home=True)
+        self._await_frames(seat.side.computer, cue)
+        self._tick(seat, cue)
+
+    def _tick(self, seat: _Seat, cue: Cue) -> None:
+        self._log.time_s = cue.tick * self._mission.tick_s
+        done = seat.side.tick(cue)
+        if self._ending.asked and done.status.activity is Activity.LANDED:
+            done = structs.replace(done, leaves=True)
+            seat.over = True
+        seat.last = done
+        seat.put(encode(done))
+        self._log.events(done.status.events, who=_name([seat.side.uid]))
+
+    def _await_frames(self, computer: Computer, cue: Cue) -> None:
+        due, deadline_s = computer.due(cue), monotonic() + FRAMES_LATE_S
+        while due is not None and computer.radio.waiting < due and monotonic() < deadline_s:
+            sleep(FRAME_LOOK_S)
+
+    def _on_world(self, key: str, is_there: bool) -> None:
+        self._world_gone = not is_there
+        if not is_there:
+            for uid in self._seats:
+                self._mail.give_up(uid)
+
+    def _fly_home(self) -> int:
+        """The world has gone, and with it the clock: come down by ourselves."""
+        self._log.error("the world has gone: flying home")
+        tick_s = self._mission.tick_s
+        pace: Pace = RealTime(tick_s=tick_s, speed=1.0) if self._transports else Lockstep()
+        first = max(seat.last.tick for seat in self._seats.values()) + 1
+        for tick in range(first, first + round(RETURN_LIMIT_S / tick_s)):
+            pace.begin(tick)
+            for uid in self._flying():
+                seat = self._seats[uid]
+                self._tick(seat, Cue(tick=tick, come_home=True, frames=None))
+                seat.over = seat.over or seat.last.status.activity is Activity.LANDED or seat.last.unheard
+            if not self._flying():
+                break
+        return self._code(FAILED)
+
+
+def _name(uids: Sequence[int]) -> str:
+    first, last = min(uids), max(uids)
+    return f"agent-{first}" if first == last else f"agents-{first}-{last}"

@@ -1,0 +1,87 @@
+"""The command line's options of the verbs that run a mission in many processes."""
+
+from __future__ import annotations
+
+import argparse
+
+from missions.arguments import count, new_file, report, seconds, speed, whole
+from missions.daemons.log import LEVELS
+from missions.daemons.options import ENDPOINT, JOIN_S
+
+Parser = argparse.ArgumentParser
+
+WORLD = """examples:
+  swarm world quickstart --report out/q.json         then, in other terminals, swarm agent quickstart --id 0 ...
+  swarm world my.yaml --listen tcp/0.0.0.0:7447      for agents on other hosts
+
+Waits until every agent of the mission is there; then the mission begins. SIGTERM: everybody lands, then it exits 0."""
+
+AGENT = """examples:
+  swarm agent quickstart --id 3
+  swarm agent quickstart --id 0-4                    five agents in one process
+  swarm agent my.yaml --id 0 --connect tcp/10.0.0.5:7447
+
+Ends when the world says that the mission is over. SIGTERM: fly home, land, disarm, exit 0; a second one: at once.
+If the world goes, or its link, the agent flies home by itself, and the code is 1."""
+
+RECORD = """examples:
+  swarm record quickstart --record out/q.rrd
+  swarm record quickstart --view                     look on
+
+Start it before the last agent, or begin the world with --recorded: it records from when it is there until the mission
+is over. SIGTERM: the recording ends there, whole, and the code is 0."""
+
+
+def world_options(parser: Parser) -> Parser:
+    """Add what `swarm world` has."""
+    add_speed(parser)
+    parser.add_argument("--report", type=report, metavar="F.json", help="write the report; - is standard output")
+    parser.add_argument("--recorded", action="store_true", help="wait for a recorder, too")
+    return _add_daemon(parser, "--listen", "listen there")
+
+
+def agent_options(parser: Parser) -> Parser:
+    """Add what `swarm agent` has."""
+    add_speed(parser)
+    parser.add_argument("--id", required=True, metavar="N", help="its number from 0, or several: 0-4")
+    return _add_daemon(parser, "--connect", "where the world listens")
+
+
+def record_options(parser: Parser) -> Parser:
+    """Add what `swarm record` has."""
+    add_speed(parser)
+    parser.add_argument("--record", type=new_file, metavar="F.rrd", help="write a recording for rerun")
+    parser.add_argument("--view", action="store_true", help="open a viewer and watch")
+    parser.add_argument("--web", action="store_true", help="serve a viewer to browsers on this computer")
+    return _add_daemon(parser, "--connect", "where the world listens")
+
+
+def add_speed(parser: Parser) -> None:
+    """Add how fast the mission's clock goes."""
+    about = "X times real time, or max (default; with links: 1)"
+    parser.add_argument("--speed", type=speed, metavar="X", help=about)
+
+
+def add_processes(parser: Parser) -> None:
+    """Add what a launch in many processes has."""
+    about = "many processes; N agents in one (1)"
+    parser.add_argument("--processes", nargs="?", type=count, const=1, metavar="N", help=about)
+    parser.add_argument("--listen", default=ENDPOINT, metavar="ENDPOINT", help=f"where they meet ({ENDPOINT})")
+    parser.add_argument("--restarts", type=whole, default=3, metavar="N", help="of an agent's process that fails (3)")
+    _add_log_level(parser, default="error")
+
+
+def _add_daemon(parser: Parser, where: str, about: str) -> Parser:
+    parser.add_argument(where, dest="endpoint", default=ENDPOINT, metavar="ENDPOINT", help=f"{about} ({ENDPOINT})")
+    about = f"wait so long for the others ({JOIN_S:g})"
+    parser.add_argument("--join-timeout", type=seconds, default=JOIN_S, metavar="S", help=about)
+    _add_log_level(parser, default="info")
+    parser.add_argument("--leash", action="store_true", help="end, as by SIGTERM, when standard input does")
+    return parser
+
+
+def _add_log_level(parser: Parser, *, default: str) -> None:
+    about = f"{', '.join(LEVELS)}: the least that is said ({default})"
+    parser.add_argument(
+        "--log-level", choices=[str(level) for level in LEVELS], default=default, metavar="LEVEL", help=about
+    )

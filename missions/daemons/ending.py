@@ -1,0 +1,58 @@
+"""How a process is asked to end: SIGTERM, Ctrl-C, or the end of its launcher. Once: land and go. Again: at once."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from types import FrameType
+
+SIGNALS = (signal.SIGTERM, signal.SIGINT)
+
+
+class Ending:
+    """Whether this process is to end.
+
+    Args:
+        tell: says to whoever watches that it was heard.
+
+    Attributes:
+        asked: yes. interrupted: by Ctrl-C.
+    """
+
+    def __init__(self, tell: Callable[[str], None]) -> None:
+        self.asked = False
+        self.interrupted = False
+        self._tell = tell
+
+    @contextmanager
+    def listening(self, *, leash: bool = False) -> Iterator[Ending]:
+        """Listen for signals. `leash`: and for the end of standard input, which a launcher holds while it lives.
+
+        The second signal is a KeyboardInterrupt.
+        """
+        before = {number: signal.signal(number, self._hear) for number in SIGNALS}
+        if leash:
+            threading.Thread(target=_feel, name="leash", daemon=True).start()
+        try:
+            yield self
+        finally:
+            for number, handler in before.items():
+                signal.signal(number, handler)
+
+    def _hear(self, number: int, frame: FrameType | None) -> None:
+        if self.asked:
+            raise KeyboardInterrupt
+        self.asked = True
+        self.interrupted = number == signal.SIGINT
+        self._tell("asked to end: landing first; a second time ends at once")
+
+
+def _feel() -> None:
+    """Wait for the end of standard input, then be asked to end."""
+    while os.read(sys.stdin.fileno(), 4096):
+        pass
+    os.kill(os.getpid(), signal.SIGTERM)

@@ -1,0 +1,122 @@
+"""The recorder in a process of its own, as the world sees it: every observation goes there, and none piles up."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from pathlib import Path
+from time import monotonic
+
+import msgspec
+
+from comms.keys import RECORDER, Keys
+from comms.session import Network
+from missions.daemons.crew import CrewError
+from missions.daemons.wire import OVER, encode
+from missions.observation import Observation
+
+WINDOW_TICKS = 100  # lockstep lets the recorder fall behind so far, and then waits for it
+LOST_S = 30.0  # a recorder that does not get on for so long is lost
+KEPT_EVERY_TICKS = 10
+
+
+class Kept(msgspec.Struct, frozen=True):
+    """The recorder to the world: ticks up to this one are kept (-1: it is there), in that file; or why it failed.
+
+    closed: the file is whole, but for the ticks that were dropped.
+    """
+
+    tick: int
+    recording: str | None = None
+    failure: str = ""
+    closed: bool = False
+    dropped: int = 0
+
+
+class Feed:
+    """An observer that passes observations on to a recorder, if there is one.
+
+    Args:
+        begin: called when it comes, from another thread.
+
+    Attributes:
+        recording: the recorder's file. failures: why not everything was kept that was to be kept.
+    """
+
+    def __init__(self, bus: Network, *, keys: Keys, lockstep: bool, begin: Callable[[], None]) -> None:
+        self.failures: list[str] = []
+        self._put = bus.publisher(keys.truth)
+        self._lockstep = lockstep
+        self._begin = begin
+        self._kept: Kept | None = None
+        self._progress = threading.Condition()
+        self._there = False
+        bus.subscribe(keys.kept, self._hear)
+        bus.watch(keys.alive(RECORDER), self._on_change)
+
+    @property
+    def recording(self) -> Path | None:
+        """Where the recorder keeps it."""
+        kept = self._kept
+        return Path(kept.recording) if kept is not None and kept.recording is not None else None
+
+    def await_recorder(self, timeout_s: float) -> None:
+        """Until it is there.
+
+        Raises:
+            CrewError: it does not come.
+        """
+        if not self._wait(lambda kept: True, timeout_s):
+            raise CrewError(f"no sign of the recorder for {timeout_s:g} s")
+
+    def observe(self, observation: Observation) -> None:
+        """Pass it on; in lockstep wait for a recorder that is behind."""
+        if self._kept is None or self.failures:
+            return
+        self._put(encode(observation))
+        if self._lockstep:
+            due = observation.tick - WINDOW_TICKS
+            if self._kept.tick < due and not self._wait(lambda kept: kept.tick >= due, LOST_S):
+                self._fail(f"the recorder does not get on: nothing is recorded from {observation.time_s:.1f} s")
+
+    def close(self) -> None:
+        """The mission is over: wait until its recording is whole."""
+        self._put(OVER)
+        if self._kept is None or self.failures:
+            return
+        if not self._wait(lambda kept: kept.closed, LOST_S):
+            self._fail("the recording was not finished")
+        elif self._kept.dropped:
+            self._fail(f"the recorder was too slow: {self._kept.dropped} ticks are missing")
+
+    def _wait(self, enough: Callable[[Kept], bool], timeout_s: float) -> bool:
+        deadline_s = monotonic() + timeout_s
+        with self._progress:
+            while self._kept is None or not enough(self._kept):
+                left_s = deadline_s - monotonic()
+                lost = self._kept is not None and not self._there
+                if left_s <= 0.0 or lost or (self._kept is not None and self._kept.failure):
+                    return False
+                self._progress.wait(left_s)
+        return True
+
+    def _fail(self, why: str) -> None:
+        kept = self._kept
+        self.failures.append(kept.failure if kept is not None and kept.failure else why)
+
+    def _hear(self, key: str, payload: bytes) -> None:
+        try:
+            kept = msgspec.msgpack.decode(payload, type=Kept)
+        except (msgspec.DecodeError, UnicodeDecodeError):
+            return
+        with self._progress:
+            if self._kept is None:
+                self._begin()
+            self._kept = kept
+            self._there = True
+            self._progress.notify_all()
+
+    def _on_change(self, key: str, is_there: bool) -> None:
+        with self._progress:
+            self._there = is_there
+            self._progress.notify_all()

@@ -1,0 +1,134 @@
+"""`swarm launch --processes`: starts the processes of a plan, watches them, and leaves none behind.
+
+The world and the agents hold the other end of a pipe on their standard input: when this process ends, however it does,
+they notice, land and go (`--leash`). The recorder goes with the world.
+"""
+
+from __future__ import annotations
+
+import signal
+import socket
+import subprocess
+from collections.abc import Sequence
+from contextlib import suppress
+from time import monotonic, sleep
+
+from rich.console import Console
+
+from missions.daemons.ending import Ending
+from missions.daemons.processes import ProcessPlan
+from missions.launch import FAILED, STOPPED
+from missions.problems import InputError
+
+LOOK_EVERY_S = 0.1
+# From the end of the world until its agents have landed by themselves, and from a request to end until that is forced.
+LANDING_S = 120.0
+GOING_S = 3.0
+
+
+class _Child:
+    """One process of the plan, and how often it may still be started again."""
+
+    def __init__(self, plan: ProcessPlan) -> None:
+        self.plan = plan
+        self.restarts_left = plan.restarts
+        self._process = self._started()
+
+    @property
+    def code(self) -> int | None:
+        """Its exit code; None while it runs."""
+        return self._process.poll()
+
+    def restart(self) -> None:
+        """Start it again."""
+        self.restarts_left -= 1
+        self._close()
+        self._process = self._started()
+
+    def signal(self, number: int) -> None:
+        """Send it a signal, if it still runs."""
+        with suppress(ProcessLookupError):
+            self._process.send_signal(number)
+
+    def end(self) -> None:
+        """See that it ends: asked first, then forced."""
+        self.signal(signal.SIGTERM)
+        try:
+            self._process.wait(GOING_S)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+        self._close()
+
+    def _started(self) -> subprocess.Popen[bytes]:
+        # A session of its own: Ctrl-C at the terminal is ours to pass on.
+        return subprocess.Popen(self.plan.command, stdin=subprocess.PIPE, start_new_session=True)
+
+    def _close(self) -> None:
+        if self._process.stdin is not None:
+            self._process.stdin.close()
+
+
+def run_processes(plans: Sequence[ProcessPlan], *, endpoint: str, console: Console) -> int:
+    """Run a plan until its world ends. Returns the world's exit code, or that of whoever it could not do without.
+
+    Raises:
+        InputError: another process listens at the endpoint.
+    """
+    _check_free(endpoint)
+    ending = Ending(lambda text: console.print(f"Stopping: {text}.", markup=False))
+    children: list[_Child] = []
+    with ending.listening():
+        try:
+            children.extend(_Child(plan) for plan in plans)
+            return _watch(children, ending, console)
+        except KeyboardInterrupt:
+            for child in children:
+                child.signal(signal.SIGKILL)
+            return STOPPED
+        finally:
+            for child in children:
+                child.end()
+
+
+def _watch(children: Sequence[_Child], ending: Ending, console: Console) -> int:
+    vital = [child for child in children if child.plan.vital]
+    passed_on = False
+    while all(child.code is None for child in vital):
+        if ending.asked and not passed_on:
+            passed_on = True
+            for child in vital:
+                child.signal(signal.SIGINT if ending.interrupted else signal.SIGTERM)
+        for child in children:
+            if child.code not in (None, 0) and child.restarts_left and not ending.asked:
+                console.print(f"{child.plan.name} ended with code {child.code}: started again", markup=False)
+                child.restart()
+        sleep(LOOK_EVERY_S)
+    code = max((_exit_code(child.code) for child in vital if child.code is not None), default=FAILED)
+    return code if _all_landed(children) else max(code, FAILED)
+
+
+def _all_landed(children: Sequence[_Child]) -> bool:
+    """Wait for those who outlive the world; whether they ended well."""
+    deadline_s = monotonic() + LANDING_S
+    while any(child.code is None for child in children) and monotonic() < deadline_s:
+        sleep(LOOK_EVERY_S)
+    return all(child.code == 0 for child in children if not child.plan.vital)
+
+
+def _exit_code(code: int) -> int:
+    """A process that a signal ended has failed."""
+    return code if code >= 0 else FAILED
+
+
+def _check_free(endpoint: str) -> None:
+    """Agents must not find another mission's world where ours cannot listen."""
+    protocol, _, address = endpoint.partition("/")
+    host, _, port = address.rpartition(":")
+    if protocol != "tcp" or not port.isdigit():
+        raise InputError(f"--listen: got {endpoint}; allowed: tcp/ADDRESS:PORT")
+    try:
+        with socket.create_server((host.strip("[]"), int(port))):
+            pass
+    except (OSError, OverflowError) as error:
+        raise InputError(f"--listen: got {endpoint}; allowed: a free port of this machine ({error})") from error

@@ -1,0 +1,102 @@
+"""Which processes a launch runs, as a value and as a table: the world, the agents, the recorder."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from missions.mission import Mission
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+COMMAND = (sys.executable, "-m", "missions.cli")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ProcessPlan:
+    """One process: its name, the words of its `swarm` command, and how often it is started again when it fails.
+
+    The mission is over when a `vital` one ends.
+    """
+
+    name: str
+    words: tuple[str, ...]
+    restarts: int = 0
+    vital: bool = False
+
+    @property
+    def command(self) -> tuple[str, ...]:
+        """The program and its arguments."""
+        return (*COMMAND, *self.words)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ProcessOptions:
+    """How a mission is run in many processes.
+
+    Attributes:
+        mission_words: the mission and what changes it, as on the command line. speed: as given to --speed, if it was.
+        per_process: agents in one process. restarts: of an agent that fails.
+    """
+
+    mission_words: tuple[str, ...]
+    endpoint: str
+    speed: str | None = None
+    report: str | None = None
+    record: Path | None = None
+    per_process: int = 1
+    restarts: int = 3
+    log_level: str = "warning"
+
+
+def plan_processes(mission: Mission, options: ProcessOptions) -> tuple[ProcessPlan, ...]:
+    """The processes of a mission, in the order in which they start."""
+    common = ("--log-level", options.log_level)
+    speed = () if options.speed is None else ("--speed", options.speed)
+    report = () if options.report is None else ("--report", options.report)
+    connect = (*options.mission_words, "--connect", options.endpoint, *speed, *common)
+    recorded = () if options.record is None else ("--recorded",)
+    plans = [
+        ProcessPlan(
+            name="world",
+            words=(
+                "world",
+                *options.mission_words,
+                "--listen",
+                options.endpoint,
+                *speed,
+                *report,
+                *recorded,
+                *common,
+                "--leash",
+            ),
+            vital=True,
+        )
+    ]
+    for first in range(0, mission.agents.count, options.per_process):
+        last = min(first + options.per_process, mission.agents.count) - 1
+        uids = str(first) if first == last else f"{first}-{last}"
+        name = f"agent {uids}" if first == last else f"agents {uids}"
+        plans.append(
+            ProcessPlan(name=name, words=("agent", *connect, "--leash", "--id", uids), restarts=options.restarts)
+        )
+    if options.record is not None:
+        plans.append(ProcessPlan(name="recorder", words=("record", *connect, "--record", str(options.record))))
+    return tuple(plans)
+
+
+def process_table(plans: Sequence[ProcessPlan]) -> Table:
+    """The processes as a person reads them."""
+    from rich.table import Table
+
+    table = Table(title="Processes", title_justify="left", title_style="bold", box=None, pad_edge=False)
+    table.add_column("name")
+    table.add_column("restarts", justify="right")
+    table.add_column("command", overflow="fold")
+    for plan in plans:
+        table.add_row(plan.name, str(plan.restarts), " ".join(("swarm", *plan.words)))
+    return table

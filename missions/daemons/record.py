@@ -1,0 +1,132 @@
+"""`swarm record`: the recorder in a process of its own, on the observer channel of a mission's world."""
+
+from __future__ import annotations
+
+import queue
+from time import monotonic
+from typing import TYPE_CHECKING
+
+import msgspec
+
+from comms.keys import RECORDER, WORLD, Keys
+from comms.session import BusError, Network, open_client
+from missions.daemons.ending import Ending
+from missions.daemons.feed import KEPT_EVERY_TICKS, WINDOW_TICKS, Kept
+from missions.daemons.log import Log
+from missions.daemons.options import DaemonOptions
+from missions.daemons.wire import OVER, decode_observation
+from missions.launch import DONE, FAILED, STOPPED, recorder_of
+from missions.mission import Mission
+from missions.options import LaunchOptions
+from missions.problems import InputError, OutputError
+from missions.sides.exchange import HELLO_TICK
+from missions.targets import n_targets
+
+if TYPE_CHECKING:
+    from missions.recording import Recorder
+
+HELLO_EVERY_S = 0.2
+
+
+def record(mission: Mission, daemon: DaemonOptions, options: LaunchOptions) -> int:
+    """Record a mission until it is over. Returns the exit code.
+
+    Raises:
+        InputError: this installation cannot record, or the file cannot be written.
+    """
+    log = Log("recorder", least=daemon.log_level)
+    ending = Ending(log.info)
+    with ending.listening(leash=daemon.leash):
+        recorder = recorder_of(mission, n_targets(mission), options)
+        try:
+            recorder.__enter__()
+        except OutputError as error:
+            raise InputError(str(error)) from error
+        try:
+            with open_client(daemon.endpoint, lossless=daemon.lockstep, patience_s=daemon.join_s) as bus:
+                return _Reel(mission, bus, recorder, daemon, ending=ending, log=log).run()
+        except BusError as error:
+            log.error(f"{error}: does `swarm world {mission.name}` run there?")
+        except KeyboardInterrupt:
+            log.error("ended at once")
+    return STOPPED if ending.interrupted else FAILED
+
+
+class _Reel:
+    """Observations from the bus to a recorder that is open."""
+
+    def __init__(
+        self, mission: Mission, bus: Network, recorder: Recorder, daemon: DaemonOptions, *, ending: Ending, log: Log
+    ) -> None:
+        keys = Keys(mission.name)
+        self._recorder = recorder
+        self._daemon = daemon
+        self._ending = ending
+        self._log = log
+        # What comes too fast in real time is dropped and counted, as in the recorder's own queue.
+        self._inbox: queue.Queue[bytes] = queue.Queue(4 * WINDOW_TICKS)
+        self._dropped = 0
+        self._world_gone = False
+        self._put = bus.publisher(keys.kept)
+        bus.subscribe(keys.truth, self._hear)
+        bus.watch(keys.alive(WORLD), self._on_world)
+        bus.declare_alive(keys.alive(RECORDER))
+
+    def run(self) -> int:
+        """Record until the mission is over."""
+        code = self._record()
+        try:
+            self._recorder.__exit__(None, None, None)
+        except OutputError as error:
+            self._log.error(str(error))
+            self._tell(Kept(HELLO_TICK, failure=str(error)))
+            return FAILED
+        dropped = self._dropped + self._recorder.dropped
+        if dropped:
+            self._log.error(f"the recorder was too slow: {dropped} ticks are missing")
+            code = code or FAILED
+        self._tell(Kept(HELLO_TICK, recording=self._path, closed=True, dropped=dropped))
+        return code
+
+    def _record(self) -> int:
+        begun = False
+        deadline_s = monotonic() + self._daemon.join_s
+        while not self._ending.asked:
+            try:
+                wire = self._inbox.get(timeout=HELLO_EVERY_S)
+            except queue.Empty:
+                if self._world_gone:
+                    self._log.error("the world has gone: the recording ends here")
+                    return FAILED
+                if not begun:
+                    if monotonic() > deadline_s:
+                        self._log.error(f"no word from the world for {self._daemon.join_s:g} s")
+                        return FAILED
+                    self._tell(Kept(HELLO_TICK, recording=self._path))
+                continue
+            if wire == OVER:
+                return DONE
+            observation = decode_observation(wire)
+            if observation is None:
+                continue
+            begun = True
+            self._recorder.observe(observation)
+            if observation.tick % KEPT_EVERY_TICKS == 0:
+                self._tell(Kept(observation.tick, recording=self._path))
+        return STOPPED if self._ending.interrupted else DONE
+
+    @property
+    def _path(self) -> str | None:
+        return None if self._recorder.path is None else str(self._recorder.path)
+
+    def _tell(self, kept: Kept) -> None:
+        self._put(msgspec.msgpack.encode(kept))
+
+    def _hear(self, key: str, payload: bytes) -> None:
+        try:
+            self._inbox.put_nowait(payload)
+        except queue.Full:
+            self._dropped += 1
+
+    def _on_world(self, key: str, is_there: bool) -> None:
+        self._world_gone = not is_there

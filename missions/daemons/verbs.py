@@ -1,0 +1,114 @@
+"""The verbs of the command line that run a mission in many processes; each returns an exit code."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from math import isinf
+
+from comms.status import Level
+from missions.daemons.options import DaemonOptions
+from missions.daemons.processes import ProcessOptions, ProcessPlan, plan_processes
+from missions.mission import Mission
+from missions.options import LaunchOptions, speed_of
+from missions.problems import InputError
+
+
+def world(mission: Mission, options: argparse.Namespace) -> int:
+    """Run a mission's world for agents in other processes."""
+    from missions.daemons.world import WorldOptions
+    from missions.daemons.world import world as run
+
+    speed = speed_of(mission, options.speed)
+    settings = WorldOptions(speed=speed, report=options.report, recorded=options.recorded)
+    return run(mission, _daemon(options, speed), settings)
+
+
+def agent(mission: Mission, options: argparse.Namespace) -> int:
+    """Run some of a mission's agents."""
+    uids = uids_of(mission, options.id)
+    from missions.daemons.agent import agent as run
+
+    return run(mission, uids, _daemon(options, speed_of(mission, options.speed)))
+
+
+def record(mission: Mission, options: argparse.Namespace) -> int:
+    """Record a mission that other processes fly."""
+    from missions.daemons.record import record as run
+
+    speed = speed_of(mission, options.speed)
+    settings = LaunchOptions(speed=speed, record=options.record, view=options.view, web=options.web)
+    if not settings.is_recorded:
+        raise InputError("record: got nothing to do; allowed: --record, --view, --web, or several of them")
+    return run(mission, _daemon(options, speed), settings)
+
+
+def launch(mission: Mission, options: argparse.Namespace) -> int:
+    """Start all processes of a mission, and stay until it is over."""
+    for option, given in (
+        ("--gcs", options.gcs),
+        ("--view", options.view),
+        ("--web", options.web),
+        ("--tlog", options.tlog),
+    ):
+        if given:
+            raise InputError(f"{option}: not with --processes; allowed: --record, and swarm record --view beside it")
+    from rich.console import Console
+
+    from missions.daemons.launcher import run_processes
+
+    return run_processes(processes(mission, options), endpoint=options.listen, console=Console(stderr=True))
+
+
+def processes(mission: Mission, options: argparse.Namespace) -> tuple[ProcessPlan, ...]:
+    """What a launch with these options would start."""
+    given = vars(options)
+    speed = given.get("speed")
+    speed_of(mission, speed)
+    settings = ProcessOptions(
+        mission_words=tuple(_mission_words(options)),
+        endpoint=options.listen,
+        speed=None if speed is None else "max" if isinf(speed) else f"{speed}",
+        report=given.get("report"),
+        record=given.get("record"),
+        per_process=options.processes,
+        restarts=options.restarts,
+        log_level=options.log_level,
+    )
+    return plan_processes(mission, settings)
+
+
+def _mission_words(options: argparse.Namespace) -> Iterator[str]:
+    """The mission, and what changes it, as other processes are told."""
+    yield options.mission
+    for option, text in (("--seed", options.seed), ("--duration", options.duration)):
+        if text is not None:
+            yield from (option, text)
+    for text in options.set:
+        yield from ("--set", text)
+
+
+def uids_of(mission: Mission, text: str) -> tuple[int, ...]:
+    """The agents that `--id` names: `3`, or `0-4`.
+
+    Raises:
+        InputError: the mission has no such agents.
+    """
+    first, dash, last = text.partition("-")
+    numbers = [first, last if dash else first]
+    if all(number.isascii() and number.isdigit() and len(number) < 6 for number in numbers):
+        low, high = map(int, numbers)
+        if low <= high < mission.agents.count:
+            return tuple(range(low, high + 1))
+    most = mission.agents.count - 1
+    raise InputError(f'--id: got "{text}"; allowed: a number from 0 to {most}, or several, such as 0-{most}')
+
+
+def _daemon(options: argparse.Namespace, speed: float) -> DaemonOptions:
+    return DaemonOptions(
+        endpoint=options.endpoint,
+        join_s=options.join_timeout,
+        lockstep=isinf(speed),
+        log_level=Level(options.log_level),
+        leash=options.leash,
+    )

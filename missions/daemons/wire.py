@@ -1,0 +1,54 @@
+"""Cues, dones and observations as MessagePack. Bad bytes decode to None, whatever they are."""
+
+from __future__ import annotations
+
+from math import isfinite
+from typing import TypeVar
+
+import msgspec
+
+from missions.observation import Observation
+from missions.sides.exchange import Cue, Done
+
+MAX_BYTES = 1_000_000
+OVER = b""  # in place of a cue or an observation: the mission is over
+
+T = TypeVar("T")
+
+_encoder = msgspec.msgpack.Encoder()
+_cues = msgspec.msgpack.Decoder(Cue)
+_dones = msgspec.msgpack.Decoder(Done)
+_observations = msgspec.msgpack.Decoder(Observation)
+
+
+def encode(value: Cue | Done | Observation) -> bytes:
+    """Its wire form."""
+    return _encoder.encode(value)
+
+
+def decode_cue(wire: bytes) -> Cue | None:
+    """The cue in `wire`, if it is one."""
+    return _decoded(_cues, wire)
+
+
+def decode_done(wire: bytes, uid: int) -> Done | None:
+    """The done in `wire`, if it is one of agent `uid` and of a vehicle that is somewhere."""
+    done = _decoded(_dones, wire)
+    if done is None or done.status.uid != uid:
+        return None
+    truth = done.truth
+    return done if all(map(isfinite, (*truth.position_m, *truth.velocity_m_s, truth.heading_rad))) else None
+
+
+def decode_observation(wire: bytes) -> Observation | None:
+    """The observation in `wire`, if it is one."""
+    return _decoded(_observations, wire)
+
+
+def _decoded(decoder: msgspec.msgpack.Decoder[T], wire: bytes) -> T | None:
+    if len(wire) > MAX_BYTES:
+        return None
+    try:
+        return decoder.decode(wire)
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
+        return None

@@ -1,0 +1,144 @@
+"""`swarm world`: targets, air and clock in a process of their own, through which all others of a mission speak."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from functools import partial
+from math import inf
+
+from rich.console import Console
+
+from comms.keys import WORLD, Keys
+from comms.session import BusError, Network, open_router
+from missions.daemons.crew import CrewError, Patience, RemoteCrew
+from missions.daemons.ending import Ending
+from missions.daemons.feed import Feed
+from missions.daemons.log import Log
+from missions.daemons.options import DaemonOptions, fingerprint
+from missions.faults.costs import Costs
+from missions.launch import DONE, FAILED, STOPPED, explain_every_s, pace_of
+from missions.metrics import Metrics
+from missions.mission import Mission
+from missions.observation import Observation, Observer
+from missions.problems import InputError
+from missions.progress import Progress, progress_on
+from missions.report import check_files, make_report, publish
+from missions.sides.world import WorldSide, fly
+
+# A process that does not answer for so long does nothing any more, however busy the computer.
+LOST_S = 10.0
+LOST_IN_REAL_TIME_S = 3.0
+# Of a tick, in real time: what is left is for the world itself.
+TICK_SHARE = 0.8
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WorldOptions:
+    """Options of `swarm world` beside every daemon's.
+
+    Attributes:
+        speed: mission seconds per second of wall time; `inf` is as fast as it goes. report: where the report goes.
+        recorded: wait for a recorder before it begins.
+    """
+
+    speed: float = inf
+    report: str | None = None
+    recorded: bool = False
+
+
+def world(mission: Mission, daemon: DaemonOptions, options: WorldOptions) -> int:
+    """Run a mission's world until everybody has landed. Returns the exit code.
+
+    Raises:
+        InputError: it cannot listen there, or a file cannot be written.
+    """
+    check_files(report=options.report, record=None)
+    console = Console(stderr=options.report == "-")
+    log = Log("world", least=daemon.log_level)
+    ending = Ending(log.info)
+    with ending.listening(leash=daemon.leash):
+        try:
+            with open_router(daemon.endpoint, lossless=daemon.lockstep) as bus:
+                return _run(mission, bus, daemon, options, ending=ending, log=log, console=console)
+        except BusError as error:
+            raise InputError(f"--listen: {error}") from error
+        except CrewError as error:
+            log.error(str(error))
+        except KeyboardInterrupt:
+            log.error("ended at once, and the swarm flies home without a world")
+    return STOPPED if ending.interrupted else FAILED
+
+
+def _run(
+    mission: Mission,
+    bus: Network,
+    daemon: DaemonOptions,
+    options: WorldOptions,
+    *,
+    ending: Ending,
+    log: Log,
+    console: Console,
+) -> int:
+    keys, metrics = Keys(mission.name), Metrics(costs=Costs(mission.faults, tick_s=mission.tick_s))
+    side = WorldSide(mission, bus)
+    crew = RemoteCrew(
+        bus,
+        keys=keys,
+        n_agents=mission.agents.count,
+        air=side.air,
+        patience=_patience(mission, daemon, options),
+        fingerprint=fingerprint(mission),
+        tell=log.error,
+        stop=lambda: ending.asked,
+    )
+    feed = Feed(bus, keys=keys, lockstep=daemon.lockstep, begin=partial(_explain, side))
+    bus.declare_alive(keys.alive(WORLD))
+    log.info(f"listens on {daemon.endpoint}, and waits for {mission.agents.count} agents")
+    observers: list[Observer] = [metrics, feed, _Teller(log)]
+    try:
+        if options.recorded:
+            feed.await_recorder(daemon.join_s)
+        side.meet(crew.hello())
+        began_s = time.monotonic()
+        with _progress(mission, console, metrics) as progress:
+            observers.append(progress)
+            fly(side, crew, pace=pace_of(mission, options.speed), observers=observers, stop=lambda: ending.asked)
+    finally:
+        crew.dismiss()
+        feed.close()
+    for failure in feed.failures:
+        metrics.fault(side.clock_s, None, failure)
+    report = make_report(side, metrics, wall_s=time.monotonic() - began_s, recording=feed.recording)
+    publish(report, to=options.report, console=console)
+    if ending.asked:
+        return STOPPED if ending.interrupted else DONE
+    return DONE if side.complete and not crew.lost and not feed.failures else FAILED
+
+
+def _progress(mission: Mission, console: Console, metrics: Metrics) -> Progress:
+    title = f"{mission.name}, seed {mission.seed}"
+    return progress_on(console, title=title, duration_s=mission.duration_s, tick_s=mission.tick_s, metrics=metrics)
+
+
+def _explain(side: WorldSide) -> None:
+    """Somebody records: what agents know is wanted, too."""
+    side.explain_every_s = explain_every_s(side.mission)
+
+
+def _patience(mission: Mission, daemon: DaemonOptions, options: WorldOptions) -> Patience:
+    if daemon.lockstep:
+        return Patience(join_s=daemon.join_s, tick_s=LOST_S, lost_s=LOST_S, lockstep=True)
+    tick_s = TICK_SHARE * mission.tick_s / options.speed
+    return Patience(join_s=daemon.join_s, tick_s=tick_s, lost_s=LOST_IN_REAL_TIME_S, lockstep=False)
+
+
+class _Teller:
+    """An observer that logs what the mission itself has to say."""
+
+    def __init__(self, log: Log) -> None:
+        self._log = log
+
+    def observe(self, observation: Observation) -> None:
+        self._log.time_s = observation.time_s
+        self._log.events(observation.events, who="mission")

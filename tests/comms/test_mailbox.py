@@ -1,0 +1,41 @@
+"""Waiting for everybody's message, bounded in memory and in time."""
+
+from __future__ import annotations
+
+import threading
+from time import monotonic
+
+from comms.mailbox import Mailbox
+
+LONG_S = 30.0
+
+
+def test_the_newest_message_of_each_is_kept_and_strangers_are_not_heard() -> None:
+    mail = Mailbox([0, 1])
+    for sender, payload in ((0, b"old"), (0, b"new"), (7, b"stranger"), (None, b"nobody")):
+        mail.put(sender, payload)
+    assert mail.take() == {0: b"new"}
+    assert mail.take() == {}
+
+
+def test_waiting_ends_with_the_last_message() -> None:
+    mail = Mailbox(range(3))
+    mail.put(0, b"early")
+    threads = [threading.Timer(0.05 * uid, mail.put, (uid, b"late")) for uid in (1, 2)]
+    for thread in threads:
+        thread.start()
+    began_s = monotonic()
+    mail.wait(range(3), timeout_s=LONG_S)
+    assert monotonic() - began_s < LONG_S / 2
+    assert sorted(mail.take()) == [0, 1, 2]
+
+
+def test_nobody_waits_for_one_who_is_given_up_nor_longer_than_agreed() -> None:
+    mail = Mailbox(range(2))
+    mail.put(0, b"here")
+    threading.Timer(0.05, mail.give_up, (1,)).start()
+    began_s = monotonic()
+    mail.wait(range(2), timeout_s=LONG_S)
+    assert monotonic() - began_s < LONG_S / 2
+    mail.wait(range(2), timeout_s=0.0)
+    assert mail.take() == {0: b"here"}

@@ -1,0 +1,201 @@
+"""Whole missions in many processes: the same decisions, and what becomes of those who die."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.missions.daemons.swarm import COMMAND, ROOT, SMALL, children, free_endpoint, kill, swarm, wait_until_gone
+
+LONG_S = 40.0
+LONG = ("--speed", "10", "--duration", str(LONG_S), "--log-level", "info")
+
+
+def report_of(file: Path) -> dict[str, Any]:
+    report: dict[str, Any] = json.loads(file.read_text())
+    return report
+
+
+def decided(file: Path) -> dict[str, Any]:
+    return {key: value for key, value in report_of(file).items() if key not in ("timing", "recording")}
+
+
+def agent_pid(launcher: int, uid: int) -> int:
+    [pid] = [pid for pid, words in children(launcher).items() if words.rstrip().endswith(f"--id {uid}")]
+    return pid
+
+
+FAULTS = (
+    "faults=[{kind: kill, at_s: 4, for_s: 5, agents: [1]}, {kind: freeze, at_s: 6, for_s: 4, agents: [2]}, "
+    "{kind: partition, at_s: 12, for_s: 3, groups: [[0], [1, 2]]}, {kind: kill, at_s: 17, agents: [0]}]"
+)
+
+
+@pytest.mark.parametrize(
+    ("changes", "per_process"),
+    [
+        ((), 1),
+        (("--set", "radio.loss=0.3", "--set", "radio.latency_s=0.25"), 1),
+        (("--set", FAULTS), 1),
+        ((), 2),
+    ],
+    ids=["plain", "lossy", "faulty", "two in a process"],
+)
+def test_many_processes_decide_what_one_does(tmp_path: Path, changes: tuple[str, ...], per_process: int) -> None:
+    one, many = tmp_path / "one.json", tmp_path / "many.json"
+    mission = ("launch", "quickstart", *SMALL, "--duration", "20", *changes)
+    processes = ("--processes", str(per_process), "--listen", free_endpoint())
+    for words in (("--report", str(one)), ("--report", str(many), *processes)):
+        with swarm(*mission, *words) as run:
+            assert run.wait() == 0, run.output
+    assert decided(one) == decided(many)
+    assert report_of(many)["radio"]["delivered"] > 0
+
+
+@pytest.mark.slow
+def test_a_whole_mission_and_its_recording_are_the_same(tmp_path: Path) -> None:
+    pytest.importorskip("rerun")
+    for name, words in (("one", ()), ("many", ("--processes", "--listen", free_endpoint()))):
+        files = ("--report", str(tmp_path / f"{name}.json"), "--record", str(tmp_path / f"{name}.rrd"))
+        with swarm("launch", "quickstart", *files, *words) as run:
+            assert run.wait() == 0, run.output
+    assert decided(tmp_path / "one.json") == decided(tmp_path / "many.json")
+    rerun = str(Path(sys.executable).with_name("rerun"))
+    compare = [rerun, "rrd", "compare", "--unordered", str(tmp_path / "one.rrd"), str(tmp_path / "many.rrd")]
+    result = subprocess.run(compare, capture_output=True, text=True, check=False)
+    assert result.returncode == 0, result.stderr[-2000:]
+
+
+def test_an_agent_that_is_killed_is_lost_comes_back_and_costs_the_exit_code(tmp_path: Path) -> None:
+    file = tmp_path / "report.json"
+    launch = ("launch", "quickstart", *SMALL, *LONG, "--report", str(file), "--processes", "--listen", free_endpoint())
+    with swarm(*launch) as run:
+        run.wait_for("the mission begins")
+        kill(agent_pid(run.process.pid, 2), signal.SIGKILL)
+        assert run.wait() == 1, run.output
+    report = report_of(file)
+    whats = [(fault["agent"], fault["what"]) for fault in report["faults"]]
+    assert (2, "its process has died") in whats
+    assert "agent 2 ended with code -9: started again" in run.output
+    assert 'who=agent-2 text="landed and disarmed"' in run.output
+    assert report["duration_s"] == LONG_S
+
+
+def test_when_the_launcher_is_killed_nobody_stays(tmp_path: Path) -> None:
+    file = tmp_path / "report.json"
+    launch = ("launch", "quickstart", *SMALL, *LONG, "--report", str(file), "--processes", "--listen", free_endpoint())
+    with swarm(*launch) as run:
+        run.wait_for("the mission begins")
+        family = list(children(run.process.pid))
+        assert len(family) == 4
+        run.process.kill()
+        try:
+            wait_until_gone(family)
+        finally:
+            for pid in family:
+                kill(pid, signal.SIGKILL)
+    assert report_of(file)["duration_s"] < LONG_S  # it was told, landed, and reported
+
+
+def test_ctrl_c_lands_everybody(tmp_path: Path) -> None:
+    file = tmp_path / "report.json"
+    launch = ("launch", "quickstart", *SMALL, *LONG, "--report", str(file), "--processes", "--listen", free_endpoint())
+    with swarm(*launch) as run:
+        run.wait_for("the mission begins")
+        family = list(children(run.process.pid))
+        run.process.send_signal(signal.SIGINT)
+        assert run.wait() == 130, run.output
+        wait_until_gone(family)
+    assert run.output.count("landed and disarmed") == 3
+    assert 0.0 < report_of(file)["duration_s"] < LONG_S
+
+
+def test_an_agent_that_is_asked_to_end_lands_first_and_the_others_go_on(tmp_path: Path) -> None:
+    file, endpoint = tmp_path / "report.json", free_endpoint()
+    mission = ("quickstart", *SMALL, *LONG)
+    with (
+        swarm("world", *mission, "--listen", endpoint, "--report", str(file)) as world,
+        swarm("agent", *mission, "--connect", endpoint, "--id", "0-1") as others,
+        swarm("agent", *mission, "--connect", endpoint, "--id", "2") as agent,
+    ):
+        world.wait_for("the mission begins")
+        agent.process.send_signal(signal.SIGTERM)
+        assert agent.wait() == 0, agent.output
+        assert "landed and disarmed" in agent.output
+        assert world.process.poll() is None
+        assert world.wait() == 0, world.output
+        assert others.wait() == 0, others.output
+    report = report_of(file)
+    assert report["duration_s"] == LONG_S
+    assert {fault["agent"] for fault in report["faults"]} == {2}
+
+
+def test_agents_whose_world_is_killed_fly_home() -> None:
+    endpoint = free_endpoint()
+    mission = ("quickstart", *SMALL, *LONG)
+    with (
+        swarm("world", *mission, "--listen", endpoint) as world,
+        swarm("agent", *mission, "--connect", endpoint, "--id", "0-2") as agents,
+    ):
+        world.wait_for("the mission begins")
+        world.process.kill()
+        assert agents.wait() == 1, agents.output
+    assert "the world has gone: flying home" in agents.output
+    assert agents.output.count("landed and disarmed") == 3
+
+
+def test_nobody_waits_for_ever() -> None:
+    endpoint = free_endpoint()
+    with swarm("agent", "quickstart", "--id", "0", "--connect", endpoint, "--join-timeout", "1") as agent:
+        assert agent.wait() == 1
+    assert "does `swarm world quickstart` run there?" in agent.output
+    with swarm("world", "quickstart", "--listen", endpoint, "--join-timeout", "1") as world:
+        assert world.wait() == 1
+    assert "no sign of agent 0, 1, 2" in world.output
+
+
+def test_an_agent_of_another_mission_is_not_let_in() -> None:
+    endpoint = free_endpoint()
+    one = ("narrow", "--set", "agents.count=1", "--listen", endpoint, "--join-timeout", "60")
+    other = ("narrow", "--set", "agents.count=1", "--seed", "7", "--connect", endpoint, "--id", "0")
+    with swarm("world", *one) as world, swarm("agent", *other):
+        world.wait_for("agent 0 flies another mission")
+
+
+def test_two_worlds_do_not_share_a_port() -> None:
+    endpoint = free_endpoint()
+    with swarm("world", "narrow", "--listen", endpoint) as first:
+        first.wait_for(f"listens on {endpoint}")
+        for words in (("world", "narrow"), ("launch", "narrow", "--processes")):
+            with swarm(*words, "--listen", endpoint) as second:
+                assert second.wait() == 2
+            assert "--listen: " in second.output
+            assert "ddress already in use" in second.output
+        assert first.process.poll() is None
+
+
+def test_a_daemon_is_light() -> None:
+    """What an agent's process loads, it would load on a companion computer."""
+    code = "import sys, missions.daemons.agent, missions.daemons.verbs, missions.cli; print(*sys.modules)"
+    loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT)
+    tops = {name.partition(".")[0] for name in loaded.stdout.split()}
+    assert "zenoh" in tops
+    assert not tops & {"torch", "rerun", "numba", "numpy", "matplotlib", "pyarrow"}
+
+
+def test_the_plan_of_processes_is_printed() -> None:
+    words = (*COMMAND, "plan", "quickstart", "--processes", "4", "--seed", "3")
+    printed = subprocess.run(words, capture_output=True, text=True, check=True, cwd=ROOT).stdout
+    assert [line.split("  ")[0] for line in printed.splitlines()[-4:]] == [
+        "world",
+        "agents 0-3",
+        "agents 4-7",
+        "agents 8-9",
+    ]
+    assert "swarm agent quickstart --seed 3 --connect tcp/127.0.0.1:7447" in printed
