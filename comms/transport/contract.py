@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from types import TracebackType
 from typing import Protocol, Self
@@ -29,6 +30,19 @@ class Counts:
     sent: int = 0
     dropped_in: int = 0
     dropped_out: int = 0
+
+
+class Closing(ABC):
+    """What closes when its `with` block ends."""
+
+    @abstractmethod
+    def close(self) -> None:
+        """Let everybody go. May be called twice."""
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
 
 
 class Transport(Protocol):

@@ -7,15 +7,14 @@ import select
 import termios
 import tty
 from pathlib import Path
-from types import TracebackType
 from typing import Any, Self
 
 from comms.transport.backoff import Backoff
-from comms.transport.contract import Counts, TransportError
+from comms.transport.contract import Closing, Counts, TransportError
 from comms.transport.stream import Stream
 
 
-class SerialLine:
+class SerialLine(Closing):
     """`serial:DEVICE:BAUD`: eight data bits, no parity. A line that was pulled out is opened again when it is back."""
 
     def __init__(self, device: str, baud: int) -> None:
@@ -33,14 +32,9 @@ class SerialLine:
     def __enter__(self) -> Self:
         try:
             self._plug_in()
-        except OSError as error:  # serial.SerialException is one
+        except OSError as error:
             raise TransportError(f"{self.url}: {error.strerror or error}") from error
         return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()
 
     def close(self) -> None:
         self._stream = None
@@ -74,8 +68,12 @@ class SerialLine:
     def _plug_in(self) -> Stream:
         import serial
 
-        self._line = serial.Serial(self._device, self._baud, timeout=0, write_timeout=0)
-        _tell_empty_from_ended(self._line.fileno())
+        try:
+            self._line = serial.Serial(self._device, self._baud, timeout=0, write_timeout=0)
+            _tell_empty_from_ended(self._line.fileno())
+        except (OSError, ValueError, termios.error) as error:  # no such line, no such speed, gone again
+            self.close()
+            raise OSError(str(error)) from error
         self._stream = Stream(self._line.fileno(), self.counts)
         return self._stream
 
@@ -91,7 +89,7 @@ def _tell_empty_from_ended(descriptor: int) -> None:
     termios.tcsetattr(descriptor, termios.TCSANOW, attributes)
 
 
-class PseudoTerminal:
+class PseudoTerminal(Closing):
     """`pty` or `pty:PATH`: a serial port without hardware. `url` names it once it is open; PATH becomes a link to it.
 
     While no program has it open, what is written is dropped, as from a cable that ends nowhere.
@@ -130,11 +128,6 @@ class PseudoTerminal:
         self.url = f"pty:{self._link or name}"
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()
-
     def close(self) -> None:
         if self._master is None:
             return
@@ -149,6 +142,7 @@ class PseudoTerminal:
         try:
             chunk = self._stream.read()
         except OSError:  # nobody has it open
+            self._stream.forget()
             return []
         return [chunk] if chunk else []
 
@@ -158,4 +152,5 @@ class PseudoTerminal:
         if self.connected:
             self._stream.write(data)
         else:
+            self._stream.forget()
             self.counts.dropped_out += len(data)

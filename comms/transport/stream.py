@@ -57,6 +57,12 @@ class Stream:
             self._outbound += data
         self.flush()
 
+    def forget(self) -> None:
+        """Drop what waits: who it was for has gone."""
+        self._counts.dropped_out += len(self._outbound)
+        self._inbound.clear()
+        self._outbound.clear()
+
     def flush(self) -> None:
         """Send what waits, as far as the system takes it.
 

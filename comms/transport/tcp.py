@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import errno
 import socket
-from types import TracebackType
 from typing import Self
 
 from comms.transport.backoff import Backoff
-from comms.transport.contract import MAX_PEERS, Counts, TransportError
+from comms.transport.contract import MAX_PEERS, Closing, Counts, TransportError
 from comms.transport.resolve import resolved, shown
 from comms.transport.stream import Stream
 
@@ -33,7 +32,7 @@ class Connection:
         self._socket.close()
 
 
-class TcpServer:
+class TcpServer(Closing):
     """`tcpin:HOST:PORT`: every client hears everything, and what they say comes in whole frames."""
 
     def __init__(self, host: str, port: int) -> None:
@@ -60,11 +59,6 @@ class TcpServer:
             raise TransportError(f"{self.url}: {error.strerror or error}") from error
         self.url = f"tcpin:{shown(self._host, self._listener.getsockname()[1])}"
         return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()
 
     def close(self) -> None:
         for client in self._clients:
@@ -111,7 +105,7 @@ class TcpServer:
         self._clients.remove(client)
 
 
-class TcpClient:
+class TcpClient(Closing):
     """`tcp:HOST:PORT`: a connection that is made in `read`, and made again after a while when it is lost."""
 
     def __init__(self, host: str, port: int) -> None:
@@ -132,11 +126,6 @@ class TcpClient:
         except OSError as error:
             raise TransportError(f"{self.url}: {error.strerror or error}") from error
         return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()
 
     def close(self) -> None:
         for opened in (self._calling, self._connection):
@@ -170,7 +159,11 @@ class TcpClient:
         if self._calling is None:
             if not self._backoff.due(now_s):
                 return False
-            self._calling = socket.socket(self._family, socket.SOCK_STREAM)
+            try:
+                self._calling = socket.socket(self._family, socket.SOCK_STREAM)
+            except OSError:  # too many are open
+                self._lose()
+                return False
             self._calling.setblocking(False)
         trouble = self._calling.connect_ex(self._address)
         if trouble in _UNDER_WAY:

@@ -5,11 +5,10 @@ from __future__ import annotations
 import socket
 from collections.abc import Callable
 from functools import partial
-from types import TracebackType
 from typing import Any, Self
 
 from comms.framing import datagrams
-from comms.transport.contract import DATAGRAM_BYTES, MAX_PEERS, SOURCE_BYTES, Counts, TransportError
+from comms.transport.contract import DATAGRAM_BYTES, MAX_PEERS, SOURCE_BYTES, Closing, Counts, TransportError
 from comms.transport.resolve import resolved, shown
 
 Peer = tuple[Any, ...]  # a socket address
@@ -19,7 +18,7 @@ _READS = 4096  # of one call
 _BUFFER_BYTES = 1 << 20
 
 
-class _Datagrams:
+class _Datagrams(Closing):
     """What both kinds share: one socket, and batches of whole frames."""
 
     scheme = ""
@@ -41,11 +40,6 @@ class _Datagrams:
             self.close()
             raise TransportError(f"{self.url}: {error.strerror or error}") from error
         return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()
 
     def close(self) -> None:
         if self._socket is not None:

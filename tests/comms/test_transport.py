@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import termios
 import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
@@ -226,6 +227,36 @@ def test_a_pseudo_terminal_leaves_no_link_behind(tmp_path: Path) -> None:
         assert not port.connected
         assert os.path.realpath(path).startswith("/dev/")
     assert not path.is_symlink()
+
+
+def test_what_nobody_has_read_is_not_kept_for_who_comes_next() -> None:
+    flood, times = HEARTBEAT * 1000, 10  # more than the system keeps
+    with transport_of("pty") as port:
+        descriptor = os.open(port.url.removeprefix("pty:"), os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK)
+        for _ in range(times):
+            port.write(flood)
+        os.close(descriptor)
+        until(lambda: not port.connected)
+        assert port.read(0.0) == []
+        assert port.counts.sent + port.counts.dropped_out == times * len(flood)
+
+
+@pytest.mark.parametrize("trouble", [termios.error(5, "Input/output error"), ValueError("no such speed"), OSError(5)])
+def test_a_line_that_cannot_be_set_up_is_one_that_is_not_there(
+    trouble: Exception, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(descriptor: int) -> None:
+        raise trouble
+
+    with transport_of(f"pty:{tmp_path / 'port'}"):
+        line = transport_of(f"serial:{tmp_path / 'port'}:57600")
+        with line:
+            monkeypatch.setattr("comms.transport.serial_line._tell_empty_from_ended", fail)
+            line._lose()  # type: ignore[attr-defined]
+            assert [line.read(now_s) for now_s in (0.0, 1.0)] == [[], []]
+            assert not line.connected
+        with pytest.raises(TransportError, match="57600"), line:
+            pass
 
 
 def test_what_is_not_open_cannot_be_used() -> None:
