@@ -18,6 +18,7 @@ from vehicle_sim.autopilot.navigation.auto import yaw_of
 from vehicle_sim.autopilot.request import Request
 from vehicle_sim.autopilot.setpoints import Setpoint
 from vehicle_sim.autopilot.severity import INFO
+from vehicle_sim.autopilot.streams import GROUPS
 from vehicle_sim.autopilot.telemetry import BUILDERS
 from vehicle_sim.autopilot.telemetry.fields import CUSTOM_MODE
 
@@ -25,6 +26,7 @@ FORCE_ARM, FORCE_DISARM = 2989.0, 21196.0
 MISSION_CURRENT_ID, VERSION_ID = 42, 148
 CHANGE_MODE = 1  # a flag of DO_REPOSITION
 LONGEST_PERIOD_US = 2**31 - 1
+SHORTEST_US, LONGEST_US = 1_000.0, 60_000_000.0  # what becomes of shorter and of longer ones
 
 
 class Result(IntEnum):
@@ -88,12 +90,17 @@ def _get_home(request: Request[Copter]) -> Result:
 
 
 def _set_message_interval(request: Request[Copter]) -> Result:
+    """Parameter 2: microseconds; -1 never, 0 as usual."""
     message_id, period_us = request.number(1), request.params[1]
     if message_id not in BUILDERS:
         return _no_message(request, message_id, Result.DENIED)
     if not -1.0 <= period_us <= LONGEST_PERIOD_US:  # NaN compares false
         return Result.DENIED
-    period_s = period_us * 1e-6 if period_us > 0.0 else None
+    period_s = max(SHORTEST_US, min(LONGEST_US, period_us)) * 1e-6 if period_us > 0.0 else None
+    if period_us == 0.0:
+        if not request.streams.has_usual(message_id, GROUPS.values()):
+            return Result.FAILED
+        period_s = request.streams.usual_s(message_id, GROUPS.values())
     request.streams.set_period(message_id, period_s, request.pilot.now_s)
     return Result.ACCEPTED
 

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from comms.frames import GeoPoint, Vec3, enu_from_geo, swap_enu_ned
 
-POSITION_BITS, VELOCITY_BITS, ACCELERATION_BITS = 0x007, 0x038, 0x1C0
+POSITION_BITS, VELOCITY_BITS = 0x007, 0x038
 YAW_BIT, YAW_RATE_BIT = 0x400, 0x800
 THRUST_BIT, ATTITUDE_BIT = 0x40, 0x80  # of SET_ATTITUDE_TARGET
 FURTHEST_M = 1e6
@@ -58,20 +58,22 @@ class Attitude(NamedTuple):
     climb: float
 
 
-def attitude_target(message: Any) -> Attitude | None:
-    """SET_ATTITUDE_TARGET, whose thrust is a climb rate around 0.5. None: it has no attitude or thrust, or a bad one.
+def attitude_target(message: Any, *, hover: float = 0.5) -> Attitude | None:
+    """SET_ATTITUDE_TARGET, whose thrust climbs above `hover` and sinks below. None: no attitude, no thrust, a bad one.
 
-    Body rates alone, which a real ArduCopter flies too, are not flown here.
+    Body rates alone, which real autopilots fly too, are not flown here.
     """
-    w, x, y, z = message.q
-    norm = sqrt(w * w + x * x + y * y + z * z) if all(abs(part) <= 2.0 for part in message.q) else 0.0  # NaN is false
+    norm = sqrt(sum(part * part for part in message.q)) if all(abs(part) <= 2.0 for part in message.q) else 0.0
     if message.type_mask & (ATTITUDE_BIT | THRUST_BIT) or not 0.5 < norm < 2.0 or not 0.0 <= message.thrust <= 1.0:
-        return None
-    w, x, y, z = w / norm, x / norm, y / norm, z / norm
-    pitch_rad = asin(max(-1.0, min(1.0, 2.0 * (w * y - z * x))))
-    roll_rad = atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y))
-    yaw_rad = atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
-    return Attitude(roll_rad, pitch_rad, yaw_rad, 2.0 * message.thrust - 1.0)
+        return None  # NaN compares false
+    w, x, y, z = (part / norm for part in message.q)
+    above = message.thrust - hover
+    return Attitude(
+        roll_rad=atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y)),
+        pitch_rad=asin(max(-1.0, min(1.0, 2.0 * (w * y - z * x)))),
+        yaw_rad=atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z)),
+        climb=above / (1.0 - hover) if above > 0.0 else above / hover,
+    )
 
 
 def local_setpoint(message: Any, *, position_ned_m: Vec3, yaw_rad: float) -> Setpoint:

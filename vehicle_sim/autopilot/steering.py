@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from math import copysign, cos, dist, hypot, sin, sqrt
+from math import copysign, cos, dist, hypot, radians, sin, sqrt, tan
 
 from comms.frames import GeoPoint, Vec3
 from vehicle_sim.autopilot.estimate import Estimate
@@ -17,7 +17,7 @@ from vehicle_sim.autopilot.plans.place import ned_from_item
 from vehicle_sim.autopilot.plans.store import Store
 from vehicle_sim.autopilot.rally import refuge_ned_m
 from vehicle_sim.autopilot.sticks import NO_RADIO, Sticks
-from vehicle_sim.flight import DRAG_1_S, VELOCITY_GAIN_1_S, Demand, wrap_pi
+from vehicle_sim.flight import DRAG_1_S, GRAVITY_M_S2, VELOCITY_GAIN_1_S, Demand, wrap_pi
 
 APPROACH_GAIN_1_S = 0.5
 APPROACH_BRAKING = 0.8  # of the acceleration limit
@@ -143,6 +143,14 @@ class Steering:
         kept = 1.0 - DRAG_1_S / VELOCITY_GAIN_1_S
         frame = self.airframe
         return kept * frame.north_m_s + north / VELOCITY_GAIN_1_S, kept * frame.east_m_s + east / VELOCITY_GAIN_1_S
+
+    def leaned_m_s(self, roll_rad: float, pitch_rad: float) -> tuple[float, float]:
+        """The velocity (north, east) whose pursuit leans it so, within the tilt limit."""
+        limit_rad = radians(self.airframe.limits.tilt_deg)
+        forward, right = (
+            GRAVITY_M_S2 * tan(max(-limit_rad, min(limit_rad, angle_rad))) for angle_rad in (-pitch_rad, roll_rad)
+        )
+        return self.pushed_m_s(forward, right)
 
     def turned(self, forward: float, right: float) -> tuple[float, float]:
         """What the nose sees, as north and east."""

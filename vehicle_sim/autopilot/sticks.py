@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-MIDDLE_US, HALF_SPAN_US, LOWEST_US = 1500.0, 500.0, 1000.0
+MIDDLE_US, HALF_SPAN_US = 1500.0, 500.0
 IGNORED_US, RELEASED_US = 65535, 0
 NO_AXIS = 32767  # MANUAL_CONTROL: this axis is not there
 TIMEOUT_S = 3.0  # RC_OVERRIDE_TIME

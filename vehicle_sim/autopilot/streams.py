@@ -74,6 +74,16 @@ class Streams:
                 self._rates_hz[group.parameter] = rate_hz
                 self.set_group(group, rate_hz, known, now_s)
 
+    def has_usual(self, message_id: int, groups: Iterable[Group]) -> bool:
+        """Whether it flows unasked, or belongs to one of `groups`."""
+        return message_id in self.unasked_s or any(message_id in group.message_ids for group in groups)
+
+    def usual_s(self, message_id: int, groups: Iterable[Group]) -> float | None:
+        """Its period until somebody asks for another: as the parameters say that this link follows, or unasked."""
+        rates_hz = [self._rates_hz.get(group.parameter, 0.0) for group in groups if message_id in group.message_ids]
+        rate_hz = max(rates_hz, default=0.0)
+        return 1.0 / rate_hz if rate_hz > 0.0 else self.unasked_s.get(message_id)
+
     def period_s(self, message_id: int) -> float | None:
         return self._periods_s.get(message_id)
 

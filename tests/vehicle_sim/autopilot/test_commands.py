@@ -141,6 +141,16 @@ def test_forced_disarm_in_the_air_drops_it() -> None:
     assert float(hit.split()[4]) == pytest.approx(11.75, abs=0.8)
 
 
+def test_an_interval_of_zero_is_the_usual_one() -> None:
+    station = ready()
+    station.tick(dialect.MAVLink_param_set_message(3, 1, b"SR0_EXTRA1", 4.0, 4))
+    for asked_us, given_us in ((-1, -1), (0, 250_000), (10, 1_000), (1e9, 60_000_000), (0, 250_000)):
+        assert station.order(511, 30, asked_us) == ACCEPTED
+        station.order(510, 30)
+        assert station.last("MESSAGE_INTERVAL").interval_us == given_us
+    assert station.order(511, 148, 0) == FAILED  # AUTOPILOT_VERSION has no usual one
+
+
 def test_rates_are_asked_for_told_and_taken_back() -> None:
     station = ready()
     assert station.order(511, 30, 200_000) == ACCEPTED

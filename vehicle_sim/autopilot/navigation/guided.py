@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from math import radians, tan
-
 from vehicle_sim.autopilot.navigation.navigator import Navigator
 from vehicle_sim.autopilot.setpoints import STOP, Attitude, Setpoint
 from vehicle_sim.autopilot.steering import TIME_SLACK_S, Steering
-from vehicle_sim.flight import GRAVITY_M_S2, Demand
+from vehicle_sim.flight import Demand
 
 LEVEL = Attitude(0.0, 0.0, 0.0, 0.0)
 
@@ -58,9 +56,6 @@ class Guided(Navigator):
 
     def _leaned(self, attitude: Attitude) -> Demand:
         steering = self.steering
-        tilt_rad = radians(steering.airframe.limits.tilt_deg)
-        forward = -GRAVITY_M_S2 * tan(max(-tilt_rad, min(tilt_rad, attitude.pitch_rad)))
-        right = GRAVITY_M_S2 * tan(max(-tilt_rad, min(tilt_rad, attitude.roll_rad)))
-        north_m_s, east_m_s = steering.pushed_m_s(forward, right)
+        north_m_s, east_m_s = steering.leaned_m_s(attitude.roll_rad, attitude.pitch_rad)
         turn_rad_s = 0.0 if attitude is LEVEL else steering.turn_rad_s(attitude.yaw_rad)
         return Demand(north_m_s, east_m_s, steering.climb_share_m_s(attitude.climb), turn_rad_s)

@@ -10,14 +10,15 @@ from pymavlink.dialects.v20 import ardupilotmega as dialect
 from vehicle_sim.autopilot.px4.commander import Commander
 from vehicle_sim.autopilot.px4.setpoints import (
     Trajectory,
-    attitude_target,
     global_trajectory,
     local_trajectory,
 )
+from vehicle_sim.autopilot.setpoints import attitude_target
 from vehicle_sim.autopilot.severity import CRITICAL
 from vehicle_sim.autopilot.sticks import manual, overridden
 
 GROUND_STATION = 6  # MAV_TYPE_GCS
+LEAST_HOVER, MOST_HOVER = 0.1, 0.9  # share of full thrust
 
 
 def heartbeat(pilot: Commander, message: Any) -> None:
@@ -44,7 +45,8 @@ def _take(pilot: Commander, trajectory: Trajectory | None, frame: int) -> None:
 
 
 def attitude(pilot: Commander, message: Any) -> None:
-    pilot.hear_setpoint(attitude_target(message, hover=pilot.parameters["MPC_THR_HOVER"]))
+    hover = max(LEAST_HOVER, min(MOST_HOVER, pilot.parameters["MPC_THR_HOVER"]))
+    pilot.hear_setpoint(attitude_target(message, hover=hover))
 
 
 def rc_override(pilot: Commander, message: Any) -> None:

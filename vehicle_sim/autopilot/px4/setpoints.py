@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import asin, atan2, cos, isfinite, sin
+from math import cos, isfinite, sin
 from typing import Any, NamedTuple
 
 from comms.frames import GeoPoint, Vec3, enu_from_geo, swap_enu_ned
@@ -12,13 +12,11 @@ from vehicle_sim.autopilot.setpoints import (
     FURTHEST_M,
     YAW_BIT,
     YAW_RATE_BIT,
-    Attitude,
 )
 
 LOCAL_NED, BODY_NED = 1, 8  # MAV_FRAME: the only local ones that PX4 takes
 ABOVE_SEA_FRAMES, ABOVE_HOME_FRAMES = frozenset({0, 5}), frozenset({3, 6})
 POSITION_BIT, VELOCITY_BIT, ACCELERATION_BIT = 0x001, 0x008, 0x040  # of the first axis; the next ones are above
-THRUST_BIT, ATTITUDE_BIT = 0x40, 0x80
 LARGEST_M_S2 = 1e3
 
 Axes = tuple[float | None, float | None, float | None]  # north, east, down; None: left open
@@ -67,25 +65,6 @@ def global_trajectory(message: Any, *, origin: GeoPoint, home: GeoPoint) -> Traj
         position = _used(message.type_mask, POSITION_BIT, swap_enu_ned(enu_from_geo(origin, place)), FURTHEST_M)
     velocity = _used(message.type_mask, VELOCITY_BIT, (message.vx, message.vy, message.vz), FASTEST_M_S)
     return Trajectory(position, velocity, OPEN, *_turn(message))
-
-
-def attitude_target(message: Any, *, hover: float) -> Attitude | None:
-    """SET_ATTITUDE_TARGET, whose thrust climbs above `hover` and sinks below; None: it has no attitude or thrust.
-
-    Body rates alone keep OFFBOARD alive and are not flown here.
-    """
-    norm = sum(part * part for part in message.q) ** 0.5 if all(abs(part) <= 2.0 for part in message.q) else 0.0
-    if message.type_mask & (ATTITUDE_BIT | THRUST_BIT) or not 0.5 < norm < 2.0 or not 0.0 <= message.thrust <= 1.0:
-        return None  # NaN compares false
-    w, x, y, z = (part / norm for part in message.q)
-    hover = max(0.1, min(0.9, hover))
-    off = message.thrust - hover
-    return Attitude(
-        roll_rad=atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y)),
-        pitch_rad=asin(max(-1.0, min(1.0, 2.0 * (w * y - z * x)))),
-        yaw_rad=atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z)),
-        climb=off / (1.0 - hover) if off > 0.0 else off / hover,
-    )
 
 
 def _used(mask: int, first_bit: int, vector: Vec3, largest: float) -> Axes:

@@ -14,7 +14,7 @@ from vehicle_sim.flight import GRAVITY_M_S2, wrap_pi
 
 WRONG_FIX_DEG = (-0.49275, -0.08884)  # how far off the first fix was
 NO_FIX, FEW_SATELLITES = 1, 3  # GPS_RAW_INT while SIM_GPS_DISABLE is set (recorded)
-GOOD_HDOP, BAD_HDOP = 121, 9999
+HDOP, VDOP = 121, 200  # times 100 (recorded)
 POSITION_LOST_FLAGS = 37  # EKF_STATUS_REPORT: attitude, vertical velocity and position alone (recorded)
 BOARD_CDEG, AIR_CDEG = 3062, 3155  # temperatures (recorded)
 SEA_LEVEL_HPA, SCALE_M, EXPONENT = 1013.25, 44330.0, 5.255  # barometric formula of the standard atmosphere
@@ -40,7 +40,7 @@ def gps_raw_int(pilot: Autopilot) -> Any:
     if not sensors.has_fix:
         fix, satellites = NO_FIX, min(satellites, FEW_SATELLITES)
     return dialect.MAVLink_gps_raw_int_message(
-        boot_ms(pilot) * 1000, fix, latitude, longitude, altitude_mm, GOOD_HDOP, 200, u16(100.0 * speed),
+        boot_ms(pilot) * 1000, fix, latitude, longitude, altitude_mm, HDOP, VDOP, u16(100.0 * speed),
         round(100.0 * course_deg) % 36000, satellites, altitude_mm, 300, 300, 40, 0, 0,
     )  # fmt: skip
 

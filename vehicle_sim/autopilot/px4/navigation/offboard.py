@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from math import radians, tan
-
 from comms.frames import Vec3
 from vehicle_sim.autopilot.navigation.navigator import Navigator
 from vehicle_sim.autopilot.px4.setpoints import Axes, Trajectory
 from vehicle_sim.autopilot.setpoints import Attitude, Setpoint
 from vehicle_sim.autopilot.steering import Steering
-from vehicle_sim.flight import GRAVITY_M_S2, VELOCITY_GAIN_1_S, Demand
+from vehicle_sim.flight import VELOCITY_GAIN_1_S, Demand
 
 UP_M_S = 0.1  # faster than this it lifts off
 
@@ -63,10 +61,7 @@ class Offboard(Navigator):
 
     def _leaned(self, attitude: Attitude) -> Demand:
         steering = self.steering
-        tilt_rad = radians(steering.airframe.limits.tilt_deg)
-        forward = -GRAVITY_M_S2 * tan(max(-tilt_rad, min(tilt_rad, attitude.pitch_rad)))
-        right = GRAVITY_M_S2 * tan(max(-tilt_rad, min(tilt_rad, attitude.roll_rad)))
-        north_m_s, east_m_s = steering.pushed_m_s(forward, right)
+        north_m_s, east_m_s = steering.leaned_m_s(attitude.roll_rad, attitude.pitch_rad)
         climb_m_s = steering.climb_share_m_s(attitude.climb)
         return Demand(north_m_s, east_m_s, climb_m_s, steering.turn_rad_s(attitude.yaw_rad))
 
