@@ -17,13 +17,12 @@ class Flavor(NamedTuple):
         autopilot: powers one on, given what `Autopilot` is given less its parameters, script and rules.
         builders: the messages it can report, by id. unasked_s: the periods of those that flow unasked.
         groups: what REQUEST_DATA_STREAM switches; none: it does not know that message.
-        commands: the handlers of commands, each with a MAV_RESULT. unsupported: the result of any other.
+        commands: the handlers of commands, each with a MAV_RESULT.
         set_mode: SET_MODE (base mode, custom mode), with a MAV_RESULT. set_mode_ack: as which command it is answered.
         addressed: whether a message with a target is for the vehicle of a system id.
         hearing: messages it takes in without an answer. answers: those it answers.
     """
 
-    name: str
     autopilot: Callable[..., Autopilot]
     builders: Mapping[int, Builder]
     unasked_s: Mapping[int, float]

@@ -24,7 +24,6 @@ def addressed(message: Any, system_id: int) -> bool:
 
 
 ARDUPILOT = Flavor(
-    name="ardupilot",
     autopilot=Copter,
     builders=BUILDERS,
     unasked_s=UNASKED_S,

@@ -35,7 +35,6 @@ def addressed(message: Any, system_id: int) -> bool:
 
 
 PX4 = Flavor(
-    name="px4",
     autopilot=Commander,
     builders=BUILDERS,
     unasked_s=UNASKED_S,
