@@ -10,8 +10,9 @@
 Tables to read first: `modes`, `commands`, `parameters.csv`, `streams`, `telemetry`, `arming`, `actions` and the `boot`
 sequence. `core` is any autopilot without its wire, `copter` an ArduCopter, and `px4` a room with a PX4; `flavors`
 lists the families, and `flavor` says where they differ on the wire. `guidance` turns a mode into a demand, `setpoints`
-reads what a ground station asks for. `body` is the machine underneath and `faults` how SIM_* parameters break it; `estimate` is what
-the autopilot believes of it, and `failsafes`, `battery_failsafe`, `ekf_check` and `crash_check` watch over both.
+reads what a ground station asks for. `body` is the machine underneath and `faults` how SIM_* parameters break it;
+`estimate` is what the autopilot believes of it, and `failsafes`, `battery_failsafe`, `ekf_check` and `crash_check`
+watch over both.
 How each mode flies is in `navigation`, one small class each, over the moves of `steering`. `plans` keeps missions,
 fences and rally points and carries them up and down; `mission` is the course through one, `fence` watches the borders.
 """
