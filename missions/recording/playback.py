@@ -32,7 +32,8 @@ from missions.report import PACKAGES, Facts
 
 _ROW_ID = "rerun.controls.RowId"
 _LEVELS = {"INFO": Level.INFO, "WARN": Level.WARNING, "ERROR": Level.ERROR}
-_READ = (
+# The entities that are read.
+READ = (
     "/__properties/**",
     "/ledger/**",
     "/log/**",
@@ -274,7 +275,7 @@ class _Table:
 
     def __init__(self, reader: RrdReader) -> None:
         self._batches: dict[str, list[pa.RecordBatch]] = {}
-        for chunk in reader.stream().filter(content=list(_READ)).to_chunks():
+        for chunk in reader.stream().filter(content=list(READ)).to_chunks():
             self._batches.setdefault(str(chunk.entity_path), []).append(pa.record_batch(chunk.to_record_batch()))
 
     def statics(self, path: str) -> Mapping[str, Any]:

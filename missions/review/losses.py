@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import hypot
 
-from comms.status import Activity
+from comms.status import OFF_DUTY, Activity
 from missions.metrics import CALL_PAUSE_S
 from missions.observation import Observation
 from missions.review.calls import Call
@@ -37,6 +37,7 @@ class Loss:
 
     Attributes:
         time_s: mission clock of the first tick without an owner. owners: who had it until then.
+        owners_gone: none of them is on duty any more.
         call: the call that was out for it, if any. helpers: who was on the way.
         chances: who could have prevented it; the one with the most time first.
         found_after_s: until somebody had it again; None: never.
@@ -45,6 +46,7 @@ class Loss:
     time_s: float
     target: int
     owners: tuple[int, ...]
+    owners_gone: bool
     call: Call | None
     helpers: tuple[int, ...]
     chances: tuple[Chance, ...]
@@ -76,7 +78,8 @@ def losses_of(
             helpers = tuple(
                 status.uid for status in seen.statuses if status.helping == target and status.uid not in before[target]
             )
-            at_large[target] = Loss(seen.time_s, target, before[target], call, helpers, chances)
+            gone = all(seen.statuses[uid].activity in OFF_DUTY for uid in before[target])
+            at_large[target] = Loss(seen.time_s, target, before[target], gone, call, helpers, chances)
             losses.append(at_large[target])
         before = owners
     return losses

@@ -44,6 +44,9 @@ def _parts(review: Review) -> Iterable[RenderableType]:
     if review.losses:
         yield Text()
         yield _losses(review)
+    if review.report["injected"]:
+        yield Text()
+        yield _injected(review)
     if review.report["faults"]:
         yield Text()
         yield _faults(review)
@@ -148,6 +151,20 @@ def _losses(review: Review) -> Table:
 def _worst(review: Review) -> Sequence[Loss]:
     longest = sorted(review.losses, key=lambda loss: -(loss.found_after_s or float("inf")))[:_SHOWN_LOSSES]
     return sorted(longest, key=lambda loss: loss.time_s)
+
+
+def _injected(review: Review) -> Table:
+    """The mission's own faults: what was seen before, meanwhile and afterwards. Their times count from MISSION."""
+    table = Table(title="Faults on purpose", title_justify="left", title_style="bold", box=None, pad_edge=False)
+    for name in ("at", "what", "noticed", "seen before", "during", "after"):
+        table.add_column(name, justify="left" if name in ("at", "what", "noticed") else "right")
+    for fault in review.report["injected"]:
+        after_s = fault["noticed_after_s"]
+        noticed = "never" if after_s is None else f"after {after_s:.1f} s by {agent(fault['noticed_by'])}"
+        shares = [percent(fault["coverage"][when]) for when in ("before", "during", "after")]
+        at = clock(fault["at_s"] + (review.began_s or 0.0))
+        table.add_row(at, f"{fault['what']}, {fault['whom']}", noticed, *shares)
+    return table
 
 
 def _faults(review: Review) -> Table:

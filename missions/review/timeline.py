@@ -70,9 +70,10 @@ def call_words(call: Call) -> str:
 
 def loss_words(loss: Loss) -> str:
     """A loss and what would have prevented it, on one line."""
+    gone = f", for {agents(loss.owners)} is out" if loss.owners_gone else ""
     called = "no call was out" if loss.call is None else f"called for {max(0.0, loss.time_s - loss.call.began_s):.1f} s"
     coming = [f"{agents(loss.helpers)} on the way"] if loss.helpers else []
-    return "; ".join([f"nobody has {target(loss.target)} any more", called, *coming, _chance_words(loss)])
+    return "; ".join([f"nobody has {target(loss.target)} any more{gone}", called, *coming, _chance_words(loss)])
 
 
 def _chance_words(loss: Loss) -> str:
