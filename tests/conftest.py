@@ -1,10 +1,14 @@
-"""Tests that fly compiled missions share one worker, so that the study is compiled once."""
+"""Tests that fly compiled missions share one worker, so that the study is compiled once; no example has a deadline."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 import pytest
+from hypothesis import settings
+
+settings.register_profile("patient", deadline=None)  # a busy computer is no failure
+settings.load_profile("patient")
 
 COMPILED = {"study", "training"}
 

@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
-from vehicle_sim.autopilot.commands import COMMANDS
-from vehicle_sim.autopilot.parameters import TABLE
+from vehicle_sim.autopilot.ardupilot.commands import COMMANDS
+from vehicle_sim.autopilot.ardupilot.parameters import TABLE
 from vehicle_sim.autopilot.px4.commands import COMMANDS as PX4_COMMANDS
 from vehicle_sim.autopilot.px4.modes import Mode as Px4Mode
 from vehicle_sim.autopilot.px4.parameters import ROWS

@@ -13,9 +13,9 @@ from typing import Any
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
 from tests.fuzz.hostile import HOME
-from vehicle_sim.autopilot.commands import COMMANDS
-from vehicle_sim.autopilot.modes import Mode
-from vehicle_sim.autopilot.parameters import TABLE
+from vehicle_sim.autopilot.ardupilot.commands import COMMANDS
+from vehicle_sim.autopilot.ardupilot.modes import Mode
+from vehicle_sim.autopilot.ardupilot.parameters import TABLE
 
 SYSTEM = 3
 Turns = list[list[Any]]  # a list of messages for each tick

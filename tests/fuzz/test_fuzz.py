@@ -19,7 +19,7 @@ from tests.fuzz.layouts import LAYOUTS
 from tests.fuzz.play import play, shrink
 from tests.fuzz.sessions import SYSTEM, TAKEOFF, order, take_off
 from tests.fuzz.subjects import PilotUnderFire, VehicleUnderFire
-from vehicle_sim.autopilot import commands
+from vehicle_sim.autopilot.ardupilot import commands
 from vehicle_sim.vehicle import VehicleTruth
 
 SEED = 20

@@ -23,7 +23,7 @@ from missions.metrics import Metrics
 from missions.observation import Observation, Phase
 from missions.overrides import Override
 from missions.report import Report, as_json, make_report
-from vehicle_sim.autopilot.modes import Mode
+from vehicle_sim.autopilot.ardupilot.modes import Mode
 
 SMALL = ("agents.count=4", "targets.count=4", "duration_s=15", "vehicle.boot_s=0.5", "agents.altitude.base_m=4")
 KEYS = {

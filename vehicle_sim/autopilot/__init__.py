@@ -7,14 +7,12 @@
     wire_out = vehicle.tick(now_s, wire_in)  # wire_in acts from the last tick on
     vehicle.truth.position_ned_m             # north, east, down of its own home, meters
 
-Tables to read first: `modes`, `commands`, `parameters.csv`, `streams`, `telemetry`, `arming`, `actions` and the `boot`
-sequence. `core` is any autopilot without its wire, `copter` an ArduCopter, and `px4` a room with a PX4; `flavors`
-lists the families, and `flavor` says where they differ on the wire. `guidance` turns a mode into a demand, `setpoints`
-reads what a ground station asks for. `body` is the machine underneath and `faults` how SIM_* parameters break it;
-`estimate` is what the autopilot believes of it, and `failsafes`, `battery_failsafe`, `ekf_check` and `crash_check`
-watch over both.
-How each mode flies is in `navigation`, one small class each, over the moves of `steering`. `plans` keeps missions,
-fences and rally points and carries them up and down; `mission` is the course through one, `fence` watches the borders.
+`ardupilot` is an ArduCopter and `px4` a PX4: each has its `modes`, `commands`, `parameters.csv`, `boot` sequence and
+`telemetry`, tables to read first, and what watches over it. `flavors` lists them, `flavor` says where they differ on
+the wire. All else is what they share. `core` is any autopilot without its wire: `body` is the machine underneath,
+`faults` how SIM_* parameters break it, `estimate` what is believed of it. `guidance` turns a mode into a demand,
+`navigation` has the modes that flavors share, over the moves of `steering`; `setpoints` reads what it is asked.
+`plans` keeps missions, fences and rally points and carries them up and down, `mission` is the course through one.
 """
 
 from vehicle_sim.autopilot.vehicle import SimulatedVehicle

@@ -1,8 +1,7 @@
-"""The parameters of an autopilot, and those of an ArduCopter, whose table and manual is `parameters.csv`.
+"""The parameters of an autopilot of any flavor.
 
-Types, defaults and names are those of a recorded ArduCopter 4.5.5 SITL; names of 4.7 are understood beside them. As in
-ArduCopter a range is advice for ground stations: what a parameter's C type can hold is stored, and whoever reads it
-keeps to what is possible. Rows whose status is `acts` do something here; those `stored` are kept for ground stations.
+A range is advice for ground stations: what a parameter's C type can hold is stored, and whoever reads it keeps to what
+is possible.
 """
 
 from __future__ import annotations
@@ -20,7 +19,6 @@ from vehicle_sim.vehicle import VehicleConfig
 TYPES = {"INT8": 2, "INT16": 4, "INT32": 6, "REAL32": 9}  # MAV_PARAM_TYPE
 REAL32 = TYPES["REAL32"]
 HOLDS = {2: (-128, 127), 4: (-32768, 32767), 6: (-(2**31), 2**31 - 128), REAL32: (-3.4e38, 3.4e38)}
-LOW_SHARE = 10.5 / 12.6  # BATT_LOW_VOLT of a battery: as low as the default is for the default battery
 ROUNDING = 0.01  # added before a float is cut to an integer, as ArduPilot does
 
 
@@ -64,42 +62,13 @@ def read_table(package: str) -> tuple[Row, ...]:
     )
 
 
-TABLE = read_table("vehicle_sim.autopilot")
-INDEX: dict[str, int] = {row.name: index for index, row in enumerate(TABLE)}
-
-
 class Alias(NamedTuple):
-    """A name of ArduCopter 4.7: ours is `scale` times its value, plus `offset`."""
+    """Another name of a parameter: `name` is `scale` times its value, plus `offset`."""
 
     name: str
     scale: float = 1.0
     offset: float = 0.0
 
-
-ALIASES: dict[str, Alias] = {
-    "ATC_ANGLE_MAX": Alias("ANGLE_MAX", 100.0),
-    "LAND_ALT_LOW_M": Alias("LAND_ALT_LOW", 100.0),
-    "LAND_SPD_HIGH_MS": Alias("LAND_SPEED_HIGH", 100.0),
-    "LAND_SPD_MS": Alias("LAND_SPEED", 100.0),
-    "MAV_GCS_SYSID": Alias("SYSID_MYGCS"),
-    "MAV_SYSID": Alias("SYSID_THISMAV"),
-    "RTL_ALT_FINAL_M": Alias("RTL_ALT_FINAL", 100.0),
-    "RTL_ALT_M": Alias("RTL_ALT", 100.0),
-    "RTL_SPEED_MS": Alias("RTL_SPEED", 100.0),
-    "SIM_GPS1_ENABLE": Alias("SIM_GPS_DISABLE", -1.0, 1.0),
-    "SIM_GPS1_GLTCH_X": Alias("SIM_GPS_GLITCH_X"),
-    "SIM_GPS1_GLTCH_Y": Alias("SIM_GPS_GLITCH_Y"),
-    "SIM_GPS1_GLTCH_Z": Alias("SIM_GPS_GLITCH_Z"),
-    "SIM_GPS1_NOISE": Alias("SIM_GPS_NOISE"),
-    "SIM_GPS1_NUMSATS": Alias("SIM_GPS_NUMSATS"),
-    "SIM_GPS1_VERR_X": Alias("SIM_GPS_VERR_X"),
-    "SIM_GPS1_VERR_Y": Alias("SIM_GPS_VERR_Y"),
-    "WP_ACC": Alias("WPNAV_ACCEL", 100.0),
-    "WP_RADIUS_M": Alias("WPNAV_RADIUS", 100.0),
-    "WP_SPD": Alias("WPNAV_SPEED", 100.0),
-    "WP_SPD_DN": Alias("WPNAV_SPEED_DN", 100.0),
-    "WP_SPD_UP": Alias("WPNAV_SPEED_UP", 100.0),
-}
 
 Listener = Callable[[], None]
 
@@ -129,25 +98,6 @@ class Catalog:
         self.meanings: dict[str, list[tuple[str, Alias]]] = {}
         for name, alias in (shared or {}).items():
             self.meanings.setdefault(alias.name, []).append((name, alias))
-
-
-ARDUCOPTER_CATALOG = Catalog(TABLE, aliases=ALIASES)
-
-
-def arducopter_values(config: VehicleConfig, system_id: int) -> dict[str, float]:
-    """What differs from the defaults in a vehicle of this kind."""
-    limits, battery = config.limits, config.battery
-    return {
-        "SYSID_THISMAV": float(system_id),
-        "BATT_CAPACITY": float(round(battery.capacity_mah)),
-        "BATT_LOW_VOLT": LOW_SHARE * battery.voltage_v,
-        "ANGLE_MAX": float(round(100.0 * limits.tilt_deg)),
-        "WPNAV_SPEED": 100.0 * limits.speed_m_s,
-        "WPNAV_SPEED_UP": 100.0 * limits.climb_m_s,
-        "WPNAV_SPEED_DN": 100.0 * limits.descent_m_s,
-        "WPNAV_ACCEL": 100.0 * limits.acceleration_m_s2,
-        **surroundings(config),
-    }
 
 
 def surroundings(config: VehicleConfig) -> dict[str, float]:

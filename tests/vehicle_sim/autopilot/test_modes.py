@@ -26,8 +26,8 @@ from tests.vehicle_sim.autopilot.ground_station import (
     ready,
     velocity,
 )
-from vehicle_sim.autopilot.breadcrumbs import cleaned, pruned, simplified
-from vehicle_sim.autopilot.modes import MODES, Mode
+from vehicle_sim.autopilot.ardupilot.modes import MODES, Mode
+from vehicle_sim.autopilot.ardupilot.navigation.breadcrumbs import cleaned, pruned, simplified
 
 ACCEPTED, FAILED = 0, 4
 

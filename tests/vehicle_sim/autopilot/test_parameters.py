@@ -10,7 +10,8 @@ from pymavlink.dialects.v20 import ardupilotmega as dialect
 
 import vehicle_sim
 from tests.vehicle_sim.autopilot.ground_station import GroundStation, flying, ready, velocity
-from vehicle_sim.autopilot.parameters import ALIASES, HOLDS, INDEX, TABLE
+from vehicle_sim.autopilot.ardupilot.parameters import ALIASES, INDEX, TABLE
+from vehicle_sim.autopilot.parameters import HOLDS
 from vehicle_sim.battery import Battery
 from vehicle_sim.flight import FlightLimits
 from vehicle_sim.vehicle import VehicleConfig

@@ -8,7 +8,7 @@ import pytest
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
 from tests.vehicle_sim.autopilot.ground_station import VELOCITY_YAW, flying, order, ready, velocity
-from vehicle_sim.autopilot.telemetry import BUILDERS
+from vehicle_sim.autopilot.ardupilot.telemetry import BUILDERS
 
 
 def test_every_position_message_tells_the_truth() -> None:

@@ -7,7 +7,7 @@ from math import atan2, copysign, radians
 
 from comms.frames import Vec3
 from vehicle_sim.autopilot.mission import Mission
-from vehicle_sim.autopilot.navigation.legs import LEGS, BeginLeg, Leg, WaypointLeg
+from vehicle_sim.autopilot.navigation.legs import BeginLeg, Leg, WaypointLeg
 from vehicle_sim.autopilot.navigation.navigator import Navigator
 from vehicle_sim.autopilot.plans import commands
 from vehicle_sim.autopilot.plans.item import Item
@@ -29,9 +29,7 @@ class Auto(Navigator):
         lands: what is flown ends on the ground.
     """
 
-    def __init__(
-        self, steering: Steering, now_s: float, mission: Mission, *, legs: Mapping[int, BeginLeg] = LEGS
-    ) -> None:
+    def __init__(self, steering: Steering, now_s: float, mission: Mission, *, legs: Mapping[int, BeginLeg]) -> None:
         super().__init__(steering, now_s)
         self._mission = mission
         self._legs = legs

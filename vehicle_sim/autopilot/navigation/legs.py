@@ -1,4 +1,7 @@
-"""The ways of a mission: takeoff, waypoint, loiter, turns, height, delay, return, land. Each says when it is done."""
+"""The ways of a mission: takeoff, waypoint, loiter, turns, height, delay, land. Each says when it is done.
+
+A return is each flavor's own.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,6 @@ from math import atan2, copysign, cos, hypot, inf, pi, sin
 from comms.frames import Vec3
 from vehicle_sim.autopilot.mission import Mission
 from vehicle_sim.autopilot.navigation.navigator import Navigator
-from vehicle_sim.autopilot.navigation.rtl import ReturnHome
 from vehicle_sim.autopilot.navigation.takeoff import Takeoff
 from vehicle_sim.autopilot.plans import commands
 from vehicle_sim.autopilot.plans.item import Item
@@ -205,27 +207,6 @@ class DelayLeg(Leg):
         return now_s >= self._until_s - TIME_SLACK_S
 
 
-class ReturnLeg(Leg):
-    """RTL, as a part of the mission: done on the ground."""
-
-    def __init__(self, steering: Steering, now_s: float, item: Item, mission: Mission) -> None:
-        super().__init__(steering, now_s, item, mission)
-        self._return = ReturnHome(steering, now_s)
-        self._down_at_s = inf
-
-    def done(self, now_s: float) -> bool:
-        if self.landing and self.steering.airframe.on_ground:
-            self._down_at_s = min(self._down_at_s, now_s)
-        return now_s - self._down_at_s >= LANDED_AFTER_S - TIME_SLACK_S
-
-    @property
-    def landing(self) -> bool:  # type: ignore[override]
-        return self._return.landing
-
-    def demand(self, now_s: float) -> Demand:
-        return self._return.demand(now_s)
-
-
 class LandLeg(Leg):
     """To a place at this height, then down. The mission ends there, unless a takeoff comes next."""
 
@@ -257,7 +238,6 @@ LEGS: dict[int, BeginLeg] = {
     commands.LOITER_TIME: LoiterLeg,
     commands.LOITER_TURNS: TurnsLeg,
     commands.LOITER_TO_ALTITUDE: HeightLeg,
-    commands.RETURN: ReturnLeg,
     commands.LAND: LandLeg,
     commands.TAKEOFF: TakeoffLeg,
     commands.DELAY: DelayLeg,

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from vehicle_sim.autopilot.parameters import TABLE, Alias, Catalog, read_table, surroundings
+from vehicle_sim.autopilot.ardupilot.parameters import TABLE
+from vehicle_sim.autopilot.parameters import Alias, Catalog, read_table, surroundings
 from vehicle_sim.vehicle import VehicleConfig
 
 ROWS = read_table(__package__ or "")

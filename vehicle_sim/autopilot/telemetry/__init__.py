@@ -1,8 +1,8 @@
 """What the autopilot reports: one builder per MAVLink message, and the table of them by message id.
 
 A builder returns None when there is nothing to report yet. Every field is clamped to its wire type. `state` says what
-the autopilot does, `motion` where it believes to be, `sensed` what its sensors read, `copter` what only an ArduCopter
-says so.
+any autopilot does, `motion` where it believes to be, `sensed` what its sensors read; what a flavor says in its own way,
+and its whole table, is in the flavor's own `telemetry`.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from vehicle_sim.autopilot.telemetry import copter, motion, sensed, state
+from vehicle_sim.autopilot.telemetry import motion, sensed, state
 
 Builder = Callable[[Any], Any]  # from an autopilot of the flavor whose table it is in
 
@@ -40,14 +40,4 @@ SHARED: dict[int, Builder] = {
     241: sensed.vibration,
     242: motion.home_position,
     245: state.extended_sys_state,
-}
-
-# Those of an ArduCopter.
-BUILDERS: dict[int, Builder] = SHARED | {
-    0: copter.heartbeat,
-    1: copter.sys_status,
-    42: copter.mission_current,
-    147: copter.battery_status,
-    148: copter.autopilot_version,
-    162: copter.fence_status,
 }

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from comms.frames import GeoPoint
-from vehicle_sim.autopilot.arming import Reminder, complaints
-from vehicle_sim.autopilot.boot import ARDUCOPTER
-from vehicle_sim.autopilot.copter_guidance import CopterGuidance
+from vehicle_sim.autopilot.ardupilot.boot import ARDUCOPTER
+from vehicle_sim.autopilot.ardupilot.guidance import CopterGuidance
+from vehicle_sim.autopilot.ardupilot.modes import MODES, Mode
+from vehicle_sim.autopilot.ardupilot.parameters import ARDUCOPTER_CATALOG, arducopter_values
+from vehicle_sim.autopilot.ardupilot.safety.arming import Reminder, complaints
+from vehicle_sim.autopilot.ardupilot.safety.failsafes import Failsafes
+from vehicle_sim.autopilot.ardupilot.safety.fence import Fence
 from vehicle_sim.autopilot.core import FURTHEST_M, LANDED_AFTER_S, Autopilot
-from vehicle_sim.autopilot.failsafes import Failsafes
-from vehicle_sim.autopilot.fence import Fence
-from vehicle_sim.autopilot.modes import MODES, Mode
-from vehicle_sim.autopilot.parameters import ARDUCOPTER_CATALOG, Parameters, arducopter_values
+from vehicle_sim.autopilot.parameters import Parameters
 from vehicle_sim.autopilot.plans.item import Item
 from vehicle_sim.autopilot.plans.rules import ARDUCOPTER_PLANS
 from vehicle_sim.autopilot.setpoints import Setpoint

@@ -5,12 +5,12 @@ from __future__ import annotations
 from enum import IntEnum
 from typing import TYPE_CHECKING
 
-from vehicle_sim.autopilot.modes import Mode
+from vehicle_sim.autopilot.ardupilot.modes import Mode
 from vehicle_sim.autopilot.navigation.landing import Land
 from vehicle_sim.autopilot.severity import WARNING
 
 if TYPE_CHECKING:
-    from vehicle_sim.autopilot.copter import Copter
+    from vehicle_sim.autopilot.ardupilot.copter import Copter
 
 LANDING_GOES_ON = 8  # FS_OPTIONS
 

@@ -1,4 +1,4 @@
-"""What an ArduCopter is doing and how it is: heartbeat, health, battery, version, mission, fence."""
+"""What an ArduCopter reports in its own way (heartbeat, health, battery, mission, fence), and the table of it all."""
 
 from __future__ import annotations
 
@@ -6,11 +6,12 @@ from typing import Any
 
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
-from vehicle_sim.autopilot.arming import complaints
-from vehicle_sim.autopilot.battery_failsafe import Level
-from vehicle_sim.autopilot.copter import Copter
-from vehicle_sim.autopilot.fence import Border
-from vehicle_sim.autopilot.modes import MODES, Mode
+from vehicle_sim.autopilot.ardupilot.copter import Copter
+from vehicle_sim.autopilot.ardupilot.modes import MODES, Mode
+from vehicle_sim.autopilot.ardupilot.safety.arming import complaints
+from vehicle_sim.autopilot.ardupilot.safety.battery import Level
+from vehicle_sim.autopilot.ardupilot.safety.fence import Border
+from vehicle_sim.autopilot.telemetry import SHARED, Builder
 from vehicle_sim.autopilot.telemetry.fields import (
     CUSTOM_MODE,
     GUIDED_ENABLED,
@@ -127,3 +128,13 @@ def fence_status(pilot: Copter) -> Any:
     at_ms = round(1000.0 * max(0.0, fence.breached_at_s - pilot.started_at_s)) & 0xFFFFFFFF
     kind = FENCE_BREACH[fence.last if fence.breached else Border.NONE]
     return dialect.MAVLink_fence_status_message(int(bool(fence.breached)), min(65535, fence.breaches), kind, at_ms)
+
+
+BUILDERS: dict[int, Builder] = SHARED | {
+    0: heartbeat,
+    1: sys_status,
+    42: mission_current,
+    147: battery_status,
+    148: autopilot_version,
+    162: fence_status,
+}

@@ -8,14 +8,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from vehicle_sim.autopilot.actions import Action, fail
-from vehicle_sim.autopilot.battery_failsafe import BatteryFailsafe, Level
-from vehicle_sim.autopilot.crash_check import CrashCheck
-from vehicle_sim.autopilot.ekf_check import EkfCheck
+from vehicle_sim.autopilot.ardupilot.safety.actions import Action, fail
+from vehicle_sim.autopilot.ardupilot.safety.battery import BatteryFailsafe, Level
+from vehicle_sim.autopilot.ardupilot.safety.crash_check import CrashCheck
+from vehicle_sim.autopilot.ardupilot.safety.ekf_check import EkfCheck
 from vehicle_sim.autopilot.severity import WARNING
 
 if TYPE_CHECKING:
-    from vehicle_sim.autopilot.copter import Copter
+    from vehicle_sim.autopilot.ardupilot.copter import Copter
 
 # FS_GCS_ENABLE -> what to do; values that are not here return, as ArduCopter does.
 GCS_ACTIONS: dict[int, Action] = {

@@ -5,11 +5,11 @@ from __future__ import annotations
 from enum import IntEnum
 from typing import TYPE_CHECKING
 
-from vehicle_sim.autopilot.actions import Action, action_of, fail
+from vehicle_sim.autopilot.ardupilot.safety.actions import Action, action_of, fail
 from vehicle_sim.autopilot.severity import WARNING
 
 if TYPE_CHECKING:
-    from vehicle_sim.autopilot.copter import Copter
+    from vehicle_sim.autopilot.ardupilot.copter import Copter
 
 # What a battery may ask for, the most urgent first: a later failsafe acts only if it is not less urgent.
 BATTERY_PRIORITIES = (

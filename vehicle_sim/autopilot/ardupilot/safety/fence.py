@@ -8,14 +8,14 @@ from math import hypot
 from typing import TYPE_CHECKING
 
 from comms.frames import Vec3
-from vehicle_sim.autopilot.actions import Action, act
-from vehicle_sim.autopilot.modes import Mode
+from vehicle_sim.autopilot.ardupilot.modes import Mode
+from vehicle_sim.autopilot.ardupilot.safety.actions import Action, act
 from vehicle_sim.autopilot.outline import Outline, outline
 from vehicle_sim.autopilot.plans.store import Store
 from vehicle_sim.autopilot.severity import NOTICE
 
 if TYPE_CHECKING:
-    from vehicle_sim.autopilot.copter import Copter
+    from vehicle_sim.autopilot.ardupilot.copter import Copter
 
 NO_DEPTH_M = 0.01  # how far a place is inside or outside a polygon: nobody measures
 GIVE_UP_M = 100.0  # further out than this it lands where it is

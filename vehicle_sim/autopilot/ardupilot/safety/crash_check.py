@@ -9,7 +9,7 @@ from vehicle_sim.autopilot.severity import EMERGENCY
 from vehicle_sim.autopilot.steering import TIME_SLACK_S
 
 if TYPE_CHECKING:
-    from vehicle_sim.autopilot.copter import Copter
+    from vehicle_sim.autopilot.ardupilot.copter import Copter
 
 CRASHED_AFTER_S = 2.0
 LEAN_DEG = 30.0  # further than this from what was asked for

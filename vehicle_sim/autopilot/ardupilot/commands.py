@@ -12,14 +12,14 @@ from enum import IntEnum
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
 from comms.frames import geo_from_enu, swap_enu_ned
-from vehicle_sim.autopilot.copter import Copter
-from vehicle_sim.autopilot.modes import Mode
+from vehicle_sim.autopilot.ardupilot.copter import Copter
+from vehicle_sim.autopilot.ardupilot.modes import Mode
+from vehicle_sim.autopilot.ardupilot.streams import GROUPS
+from vehicle_sim.autopilot.ardupilot.telemetry import BUILDERS
 from vehicle_sim.autopilot.navigation.auto import yaw_of
 from vehicle_sim.autopilot.request import Request
 from vehicle_sim.autopilot.setpoints import Setpoint
 from vehicle_sim.autopilot.severity import INFO
-from vehicle_sim.autopilot.streams import GROUPS
-from vehicle_sim.autopilot.telemetry import BUILDERS
 from vehicle_sim.autopilot.telemetry.fields import CUSTOM_MODE
 
 FORCE_ARM, FORCE_DISARM = 2989.0, 21196.0

@@ -5,17 +5,18 @@ from __future__ import annotations
 from dataclasses import replace
 from enum import IntEnum
 
-from vehicle_sim.autopilot.breadcrumbs import Breadcrumbs
+from vehicle_sim.autopilot.ardupilot.modes import MODES, Mode
+from vehicle_sim.autopilot.ardupilot.navigation.breadcrumbs import Breadcrumbs
+from vehicle_sim.autopilot.ardupilot.navigation.guided import Guided
+from vehicle_sim.autopilot.ardupilot.navigation.mission import COPTER_LEGS
+from vehicle_sim.autopilot.ardupilot.navigation.rtl import ReturnHome
+from vehicle_sim.autopilot.ardupilot.navigation.smart_rtl import Retrace
 from vehicle_sim.autopilot.guidance import Begin, Guidance
 from vehicle_sim.autopilot.mission import Mission
-from vehicle_sim.autopilot.modes import MODES, Mode
 from vehicle_sim.autopilot.navigation.auto import Auto
-from vehicle_sim.autopilot.navigation.guided import Guided
 from vehicle_sim.autopilot.navigation.landing import Land
 from vehicle_sim.autopilot.navigation.navigator import Stop
 from vehicle_sim.autopilot.navigation.pilot import Leveled, Loiter, Manual
-from vehicle_sim.autopilot.navigation.rtl import ReturnHome
-from vehicle_sim.autopilot.navigation.smart_rtl import Retrace
 from vehicle_sim.autopilot.navigation.takeoff import Takeoff
 from vehicle_sim.autopilot.setpoints import Attitude, Setpoint
 from vehicle_sim.autopilot.severity import CRITICAL, WARNING
@@ -39,7 +40,7 @@ class CopterGuidance(Guidance):
         begin: dict[IntEnum, Begin] = {
             Mode.STABILIZE: Manual,
             Mode.ALT_HOLD: Leveled,
-            Mode.AUTO: lambda steering, now_s: Auto(steering, now_s, mission),
+            Mode.AUTO: lambda steering, now_s: Auto(steering, now_s, mission, legs=COPTER_LEGS),
             Mode.GUIDED: Guided,
             Mode.LOITER: Loiter,
             Mode.RTL: ReturnHome,

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from vehicle_sim.autopilot.actions import enter_first, pause_landing
-from vehicle_sim.autopilot.modes import MODES, Mode
+from vehicle_sim.autopilot.ardupilot.modes import MODES, Mode
+from vehicle_sim.autopilot.ardupilot.safety.actions import enter_first, pause_landing
 from vehicle_sim.autopilot.severity import CRITICAL, WARNING
 from vehicle_sim.autopilot.steering import TIME_SLACK_S
 
 if TYPE_CHECKING:
-    from vehicle_sim.autopilot.copter import Copter
+    from vehicle_sim.autopilot.ardupilot.copter import Copter
 
 PATIENCE_S = 1.0  # bad for this long: failsafe; good for this long: over (ten looks at 10 Hz)
 LANE_AFTER_S = 0.9  # just before, the other lane of the EKF is tried

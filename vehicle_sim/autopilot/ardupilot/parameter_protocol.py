@@ -8,8 +8,9 @@ from typing import Any
 
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
+from vehicle_sim.autopilot.ardupilot.parameters import ALIASES, INDEX, TABLE
 from vehicle_sim.autopilot.core import Autopilot
-from vehicle_sim.autopilot.parameters import ALIASES, INDEX, REAL32, TABLE
+from vehicle_sim.autopilot.parameters import REAL32
 from vehicle_sim.autopilot.severity import WARNING
 
 UNKNOWN_INDEX = 65535

@@ -7,7 +7,7 @@ from typing import Any
 
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
-from vehicle_sim.autopilot.copter import Copter
+from vehicle_sim.autopilot.ardupilot.copter import Copter
 from vehicle_sim.autopilot.setpoints import attitude_target, global_setpoint, local_setpoint
 from vehicle_sim.autopilot.sticks import Sticks, manual, overridden
 

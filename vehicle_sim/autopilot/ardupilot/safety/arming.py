@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
-from vehicle_sim.autopilot.battery_failsafe import Level, shortage
-from vehicle_sim.autopilot.boot import NEED_POSITION
-from vehicle_sim.autopilot.fence import named
-from vehicle_sim.autopilot.modes import MODES
+from vehicle_sim.autopilot.ardupilot.boot import NEED_POSITION
+from vehicle_sim.autopilot.ardupilot.modes import MODES
+from vehicle_sim.autopilot.ardupilot.safety.battery import Level, shortage
+from vehicle_sim.autopilot.ardupilot.safety.fence import named
 from vehicle_sim.autopilot.steering import TIME_SLACK_S
 
 if TYPE_CHECKING:
-    from vehicle_sim.autopilot.copter import Copter
+    from vehicle_sim.autopilot.ardupilot.copter import Copter
 
 PREARM_PERIOD_S = 30.0  # between two rounds of PreArm texts (recorded)
 

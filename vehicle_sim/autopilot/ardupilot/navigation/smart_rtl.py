@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from comms.frames import Vec3
-from vehicle_sim.autopilot.breadcrumbs import Breadcrumbs
+from vehicle_sim.autopilot.ardupilot.navigation.breadcrumbs import Breadcrumbs
+from vehicle_sim.autopilot.ardupilot.navigation.rtl import AT_HOME_M, descend
 from vehicle_sim.autopilot.navigation.navigator import Navigator
-from vehicle_sim.autopilot.navigation.rtl import AT_HOME_M, descend
 from vehicle_sim.autopilot.steering import Steering
 from vehicle_sim.flight import Demand
 

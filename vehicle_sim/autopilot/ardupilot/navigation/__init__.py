@@ -1,0 +1,1 @@
+"""How an ArduCopter flies the modes that it flies in its own way, one small class each, over the shared moves."""
