@@ -22,6 +22,11 @@ class Coverage:
         self._present_in_all += present
 
     @property
+    def by_tick(self) -> tuple[list[int], list[int]]:
+        """Targets seen, and targets present, in each tick."""
+        return list(self._seen), list(self._present)
+
+    @property
     def now(self) -> float | None:
         """Share of the present targets seen in the last tick; None while there are none."""
         return _share(self._seen[-1:], self._present[-1:])

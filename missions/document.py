@@ -63,7 +63,10 @@ class Document:
         self.marks[path] = mark
 
     def _mark_inside(self, path: Path, value: Any, mark: Mark) -> None:
-        for name, inner in value.items() if isinstance(value, dict) else ():
+        parts: Any = value.items() if isinstance(value, dict) else ()
+        if isinstance(value, list):  # as a reader does it: items that are mappings are told apart
+            parts = [(str(number), item) for number, item in enumerate(value) if isinstance(item, dict)]
+        for name, inner in parts:
             self.marks[(*path, name)] = mark
             self._mark_inside((*path, name), inner, mark)
 

@@ -24,6 +24,7 @@ from missions.training import figure7
 
 DONE, FAILED = 0, 1
 OUT = Path("out") / "study"
+OURS = {"faults"}  # no experiment of the paper
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -70,13 +71,13 @@ _FIGURE_7 = (
 
 
 def fly_paper(options: StudyOptions, *, flyer: Flyer | None = None) -> int:
-    """Fly all bundled studies into one folder, with a page over all of them."""
+    """Fly the paper's studies into one folder, with a page over all of them."""
     console = Console(stderr=True, highlight=False)
     folder = options.out or OUT / "paper"
     flyer = flyer or _flyer(options)
     whole: list[Results] = []
     # The paper's own figures first.
-    names = sorted(bundled_studies(), key=lambda name: (not name.startswith("figure"), name))
+    names = sorted(set(bundled_studies()) - OURS, key=lambda name: (not name.startswith("figure"), name))
     for name in names:
         results = _flown(name, options, folder / name, console, flyer)
         if results is not None:

@@ -11,7 +11,7 @@ from missions.mission import NAME
 from missions.overrides import Override
 from missions.problems import Mark, Path, Problem, any_of, did_you_mean, shown
 from missions.study.model import Check, Figure, Study
-from missions.study.points import POLICY
+from missions.study.points import FAULTS, POLICY
 
 TIME = "time"
 DERIVED = ("ratio", "agents", "targets")
@@ -57,6 +57,8 @@ def _axes(study: Study) -> Broken:
                 yield path, f"{len(values)} value{'s' if len(values) > 1 else ''}", allowed
             if key in axis_of:
                 yield path, f"a second axis (the first is sweep.{axis_of[key]})", "each key on one axis"
+            if key == FAULTS:
+                yield path, "a list of lists of faults", "the study's faults, which have names"
             if key in (POLICY, "seed"):
                 yield path, "a key that every study varies", "the study's policies, runs and seed"
             axis_of.setdefault(key, number)
@@ -66,6 +68,9 @@ def _names(study: Study) -> Broken:
     for name in study.policies:
         if not _NAME.fullmatch(name):
             yield ("policies", name), shown(name), NAME
+    for name in study.faults:
+        if not _NAME.fullmatch(name):
+            yield (FAULTS, name), shown(name), NAME
 
 
 def _seeds(study: Study) -> Broken:
@@ -124,6 +129,8 @@ def _compares(check: Check, path: Path) -> Broken:
 def _where(study: Study, where: Mapping[str, Any], path: Path) -> Broken:
     known: dict[str, list[Any] | None] = {**_swept(study), **dict.fromkeys(DERIVED)}
     known[POLICY] = list(study.policies) or None
+    if study.faults:
+        known[FAULTS] = list(study.faults)
     for key, wanted in where.items():
         if key not in known:
             yield (*path, key), "a key that is not varied", any_of(known) + did_you_mean(key, known)

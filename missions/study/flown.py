@@ -41,6 +41,8 @@ class Flown:
         seeds (R). seen, present (R, S): targets seen and present, summed over the ticks of each second.
         counts (R, 7): COUNTS of each run. late (R): coverage of the last quarter of the ticks.
         n_agents, n_targets: of every run.
+        noticed_s (R, F): how long after each of the mission's faults somebody noticed it, NaN where nobody did; None
+            for a mission without faults.
     """
 
     seeds: Ints
@@ -50,6 +52,7 @@ class Flown:
     late: Floats
     n_agents: int
     n_targets: int
+    noticed_s: Floats | None = None
 
     def share(self, *, from_s: float = 0.0, until_s: float | None = None) -> Floats:
         """Coverage of each run (R) in a window of whole seconds; NaN where no target was present."""
@@ -78,13 +81,14 @@ class Flown:
             late=np.concatenate([part.late for part in all_of]),
             n_agents=self.n_agents,
             n_targets=self.n_targets,
+            noticed_s=_stacked([part.noticed_s for part in all_of]),
         )
         return whole._rows(first)
 
     def _rows(self, rows: Ints) -> Flown:
         return Flown(
             self.seeds[rows], self.seen[rows], self.present[rows], self.counts[rows], self.late[rows],
-            self.n_agents, self.n_targets,
+            self.n_agents, self.n_targets, None if self.noticed_s is None else self.noticed_s[rows],
         )  # fmt: skip
 
 
@@ -93,7 +97,11 @@ FlyPoint = Callable[[Mission, Sequence[int]], Flown]
 
 
 def fly_point(mission: Mission, seeds: Sequence[int], threads: int | None = None) -> Flown:
-    """Fly `mission` once for every seed, compiled."""
+    """Fly `mission` once for every seed: compiled, or in process where it has faults."""
+    if mission.faults:
+        from missions.study.flights import fly_flights
+
+        return fly_flights(mission, seeds, threads)
     from missions.study.engine import fly_many
 
     return condensed(fly_many(mission, seeds=list(seeds), threads=threads), tick_s=mission.tick_s)
@@ -117,6 +125,11 @@ def second_starts(ticks: int, tick_s: float) -> Ints:
     """The first tick of every second that has one: ticks belong to the second they fall into."""
     seconds = np.floor(np.arange(ticks) * tick_s + 1e-9)
     return np.flatnonzero(np.diff(seconds, prepend=-1.0)).astype(np.int64)
+
+
+def _stacked(parts: Sequence[Floats | None]) -> Floats | None:
+    known = [part for part in parts if part is not None]
+    return np.concatenate(known) if known else None
 
 
 def _share(seen: Ints, present: Ints) -> Floats:

@@ -32,7 +32,7 @@ from missions.problems import InputError, Mark, MissionError, Path, Problem, any
 from missions.study.consistency import broken_rules
 from missions.study.model import Study
 from missions.study.pairs import NoOnePartnerError, pairs
-from missions.study.points import POLICY, Labels, Point, combinations
+from missions.study.points import FAULTS, POLICY, Labels, Point, combinations
 
 STUDIES = LIBRARY / "studies"
 
@@ -196,8 +196,16 @@ class _Maker:
 
     def _settings(self, labels: Labels) -> list[Setting]:
         axis_of = {key: str(number) for number, axis in enumerate(self._study.sweep) for key in axis}
-        settings = [self._setting(("sweep", axis_of[key], key), key, value) for key, value in labels if key != POLICY]
-        policy = dict(labels).get(POLICY)
+        settings = [
+            self._setting(("sweep", axis_of[key], key), key, value)
+            for key, value in labels
+            if key not in (POLICY, FAULTS)
+        ]
+        told = dict(labels)
+        if FAULTS in told:
+            name = str(told[FAULTS])
+            settings.append(self._setting((FAULTS, name), FAULTS, self._study.faults[name]))
+        policy = told.get(POLICY)
         for key, value in self._study.policies.get(str(policy), {}).items():
             settings.append(self._setting(("policies", str(policy), key), f"{POLICY}.{key}", value))
         return settings

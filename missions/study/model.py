@@ -118,6 +118,13 @@ class Study(Part):
         Allowed("a mapping of names to keys of the mission's policy, such as {basic: {name: b-cmommt-basic}}"),
     ] = Field(default_factory=dict)
     """The policies compared, by the name they have in figures and tables; none: the mission's own."""
+    faults: Annotated[
+        dict[str, list[Any]],
+        Allowed(
+            "a mapping of names to lists of faults, such as {none: [], kill: [{kind: kill, at_s: 60, agents: [0]}]}"
+        ),
+    ] = Field(default_factory=dict)
+    """What goes wrong, by the name it has in figures and tables; none: the mission's own faults."""
     runs: Annotated[int, Field(ge=1, le=1_000_000)] = 100
     """Missions for each point."""
     seed: Annotated[int, Field(ge=0, le=4294967295)] = 1

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from missions.study.captions import caption, conditions, policy_words
 from missions.study.claims import Judgement, Verdict, judged
+from missions.study.fault_table import faults_page, faults_table
 from missions.study.figures import panels_of, write_figure
 from missions.study.results import Results, write_tables
 from missions.study.store import write_whole
@@ -22,7 +23,7 @@ _HOW = (
 
 def write_study(results: Results, folder: Path) -> Path:
     """Write tables, figures, captions and the page of one study; returns the page."""
-    write_tables(results, folder)
+    write_tables(results, folder, {"faults": faults_table(results)})
     for figure in results.ready.study.figures:
         if write_figure(results, figure, folder):
             write_whole(folder / f"{figure.name}.txt", caption(results, figure).encode())
@@ -76,6 +77,7 @@ def _study_page(results: Results) -> str:
     judgements = judged(results)
     if judgements:
         lines += ["## Claims", "", _tally(judgements), "", _HOW, "", *claims_table(judgements), ""]
+    lines += faults_page(results)
     lines += ["## Figures", "", *_figures(results, prefix="")] if study.figures else []
     lines += [
         "## Data",

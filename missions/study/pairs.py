@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from missions.study.model import Check, Claim, Study
-from missions.study.points import POLICY, Point, matches
+from missions.study.points import FAULTS, POLICY, Point, matches
 
 # What a derived value is made of: naming it leaves these open.
 _MADE_OF = {
@@ -53,7 +53,7 @@ def _is_partner(study: Study, point: Point, other: Point, than: Mapping[str, Any
 
 def _untouched(study: Study, than: Mapping[str, Any]) -> Iterator[set[str]]:
     named = {part for key in than for part in _MADE_OF.get(key, {key})}
-    for keys in (*(set(axis) for axis in study.sweep), {POLICY}):
+    for keys in (*(set(axis) for axis in study.sweep), *([{FAULTS}] if study.faults else []), {POLICY}):
         if not keys & named:
             yield keys
 

@@ -12,9 +12,9 @@ from typing import Any
 from missions.mission import Mission, MovingTargets
 from missions.study.model import Study
 
-POLICY = "policy"
+POLICY, FAULTS = "policy", "faults"
 Labels = tuple[tuple[str, Any], ...]
-"""What tells a point from the others: the swept keys with their values, and at last `policy` with its name."""
+"""What tells a point from the others: the swept keys with their values, then `faults` and `policy` with their names."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,8 +42,10 @@ class Point:
 
 
 def combinations(study: Study, policies: Iterable[str]) -> Iterator[Labels]:
-    """Every combination of one place on each axis and one policy, the first axis turning slowest."""
+    """Every combination of one place on each axis, some faults and one policy, the first axis turning slowest."""
     axes = [_places(axis) for axis in study.sweep]
+    if study.faults:
+        axes.append([((FAULTS, name),) for name in study.faults])
     for places in product(*axes, [((POLICY, policy),) for policy in policies]):
         yield tuple(label for place in places for label in place)
 
@@ -52,6 +54,11 @@ def matches(point: Point, where: Mapping[str, Any]) -> bool:
     """Whether a point has the values asked for; a list asks for one of its values."""
     values = point.values
     return all(values.get(key) in (wanted if isinstance(wanted, list) else [wanted]) for key, wanted in where.items())
+
+
+def labels_but(point: Point, key: str) -> Labels:
+    """The labels of a point without one of them."""
+    return tuple(label for label in point.labels if label[0] != key)
 
 
 def varied(points: Iterable[Point]) -> list[str]:

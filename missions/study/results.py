@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import pyarrow as pa
@@ -51,7 +52,7 @@ def runs_table(results: Results) -> Columns:
         rows = {"seed": flown.seeds, **{name: QUANTITIES[name].of(flown, ALL) for name in PER_RUN}}
         integers = ("seed", *COUNTS)
         values = {
-            name: [int(value) if name in integers else _number(value) for value in column]
+            name: [int(value) if name in integers else number(value) for value in column]
             for name, column in rows.items()
         }
         _extend(columns, point, values, len(flown.seeds))
@@ -66,9 +67,9 @@ def points_table(results: Results) -> Columns:
         told = [(name, estimate(quantity.of(flown, ALL))) for name, quantity in QUANTITIES.items()]
         values: Columns = {
             "metric": [name for name, _ in told],
-            "mean": [_number(e.mean) for _, e in told],
-            "low": [_number(e.low) for _, e in told],
-            "high": [_number(e.high) for _, e in told],
+            "mean": [number(e.mean) for _, e in told],
+            "low": [number(e.low) for _, e in told],
+            "high": [number(e.high) for _, e in told],
             "runs": [e.runs for _, e in told],
         }
         _extend(columns, point, values, len(told))
@@ -83,9 +84,9 @@ def over_time_table(results: Results) -> Columns:
         mean, low, high = estimates(shares)
         values: Columns = {
             "second": list(range(shares.shape[1])),
-            "coverage": [_number(value) for value in mean],
-            "low": [_number(value) for value in low],
-            "high": [_number(value) for value in high],
+            "coverage": [number(value) for value in mean],
+            "low": [number(value) for value in low],
+            "high": [number(value) for value in high],
         }
         _extend(columns, point, values, shares.shape[1])
     return columns
@@ -94,11 +95,13 @@ def over_time_table(results: Results) -> Columns:
 TABLES = {"runs": runs_table, "points": points_table, "over_time": over_time_table}
 
 
-def write_tables(results: Results, folder: Path) -> list[Path]:
-    """Write every table as CSV and as Parquet."""
+def write_tables(results: Results, folder: Path, more: Mapping[str, Columns] = MappingProxyType({})) -> list[Path]:
+    """Write every table, and `more`, as CSV and as Parquet; none that is empty."""
     written = []
-    for name, make in TABLES.items():
-        table = pa.table(make(results))
+    for name, columns in {**{name: make(results) for name, make in TABLES.items()}, **more}.items():
+        if not columns:
+            continue
+        table = pa.table(columns)
         for ending, write in (("csv", pyarrow.csv.write_csv), ("parquet", pyarrow.parquet.write_table)):
             out = BytesIO()
             write(table, out)
@@ -120,6 +123,6 @@ def _plain(value: Any) -> Any:
     return value if isinstance(value, bool | int | float | str) or value is None else str(value)
 
 
-def _number(value: float) -> float | None:
+def number(value: float) -> float | None:
     """None for what is no number, so that no table has NaN or infinity in it."""
     return round(float(value), 9) if abs(value) < float("inf") else None

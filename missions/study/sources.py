@@ -9,7 +9,7 @@ import hashlib
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent.parent
-# The pilots, the wires and the recorder take no part in a study.
+# The pilots, the wires and the recorder take no part in what is compiled.
 SOURCES = (
     *(f"comms/{name}.py" for name in ("arena", "chance", "frames", "link", "messages")),
     "swarm_agent/bcmommt/*.py",
@@ -24,9 +24,21 @@ SOURCES = (
 )
 
 
-def sources_digest() -> str:
-    """16 hexadecimal digits."""
-    paths = sorted(path for pattern in SOURCES for path in ROOT.glob(pattern))
+# Missions with faults are flown with all of it.
+FLIGHT_SOURCES = (
+    "comms/**/*.py",
+    "swarm_agent/**/*.py",
+    "vehicle_sim/**/*.py",
+    "vehicle_sim/**/*.csv",
+    *(f"missions/{name}" for name in ("coverage.py", "flight.py", "faults/*.py", "mission/*.py", "sides/*.py")),
+    "missions/study/flights.py",
+)
+
+
+def sources_digest(*, flights: bool = False) -> str:
+    """16 hexadecimal digits; with `flights`, of what flies missions with faults, too."""
+    patterns = SOURCES + FLIGHT_SOURCES if flights else SOURCES
+    paths = sorted({path for pattern in patterns for path in ROOT.glob(pattern)})
     whole = hashlib.sha256()
     for path in paths:
         whole.update(path.relative_to(ROOT).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")

@@ -28,8 +28,9 @@ from missions.study.shards import Block
 from missions.study.sources import sources_digest
 
 STUDY, MANIFEST, BLOCKS = "study.yaml", "manifest.json", "blocks"
-FORMAT = 1
+FORMAT = 2
 _PACKAGES = (*PACKAGES, "numba", "numpy", "pyarrow", "matplotlib")
+_NONE = np.zeros((0, 0))
 R = TypeVar("R")
 
 
@@ -91,6 +92,7 @@ class Store:
             counts=flown.counts,
             late=flown.late,
             size=np.array([flown.n_agents, flown.n_targets]),
+            noticed_s=_NONE if flown.noticed_s is None else flown.noticed_s,
         )
         seeds = hashlib.sha256(flown.seeds.tobytes()).hexdigest()[:12]
         write_whole(self.folder / BLOCKS / f"{block.point.digest}-{block.seeds[0]:010d}-{seeds}.npz", out.getvalue())
@@ -125,7 +127,7 @@ def manifest(ready: ReadyStudy) -> dict[str, Any]:
         "runs": ready.study.runs,
         "seeds": [ready.seeds[0], ready.seeds[-1]],
         "points": {point.digest: dict(point.labels) for point in ready.points},
-        "sources": sources_digest(),
+        "sources": sources_digest(flights=any(point.mission.faults for point in ready.points)),
         "versions": versions(_PACKAGES),
     }
 
@@ -153,6 +155,7 @@ def _difference(before: Mapping[str, Any], mine: Mapping[str, Any]) -> str | Non
 
 def _flown(file: Any) -> Flown:
     n_agents, n_targets = file["size"].tolist()
+    noticed_s = file["noticed_s"]
     return Flown(
         seeds=file["seeds"],
         seen=file["seen"],
@@ -161,6 +164,7 @@ def _flown(file: Any) -> Flown:
         late=file["late"],
         n_agents=n_agents,
         n_targets=n_targets,
+        noticed_s=noticed_s if noticed_s.size else None,
     )
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from missions.problems import shown
-from missions.study.points import POLICY, Point, varied
+from missions.study.points import FAULTS, POLICY, Point, varied
 
 _UNITS = {
     "_m_s2": "m/s²",
@@ -39,7 +39,7 @@ def axis_words(key: str) -> str:
 
 def value_words(key: str, value: Any) -> str:
     """One value of what is varied: "10 agents", "radius 5 m", "b-cmommt"."""
-    if key == POLICY:
+    if key in (POLICY, FAULTS):
         return str(value)
     if key in _COUNTED:
         return f"{value} {_COUNTED[key] if value != 1 else _COUNTED[key][:-1]}"

@@ -9,7 +9,7 @@ import pytest
 from missions.problems import MissionError
 from missions.study.load import bundled_studies, load_study
 
-TOP = "name, description, mission, set, sweep, policies, runs, seed, figures, claims"
+TOP = "name, description, mission, set, sweep, policies, faults, runs, seed, figures, claims"
 START = "name: s\nmission: quickstart\n"
 COMPARE = "either value, or some of than, than_metric, than_from_s and than_until_s"
 
@@ -98,7 +98,7 @@ CASES: dict[str, tuple[str, list[str]]] = {
     ]),
     "no such mission": ("name: s\nmission: quickstrt\n", [
         ":2: mission: got no such mission; allowed: the path of a mission file, or a bundled mission "
-        "(baboons, crowded, narrow, quickstart, reference, tracks, wildlife); did you mean quickstart?",
+        "(baboons, crowded, faults, narrow, quickstart, reference, tracks, wildlife); did you mean quickstart?",
     ]),
 }  # fmt: skip
 

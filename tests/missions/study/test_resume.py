@@ -115,7 +115,7 @@ def test_a_folder_of_another_study_is_refused_unless_fresh(study: str, tmp_path:
 def test_runs_of_other_rules_are_refused(study: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     out = tmp_path / "out"
     fly_study(study, StudyOptions(out=out), flyer=here(fly))
-    monkeypatch.setattr("missions.study.store.sources_digest", lambda: "0" * 16)
+    monkeypatch.setattr("missions.study.store.sources_digest", lambda flights: "0" * 16)
     with pytest.raises(InputError, match=r"runs that other rules flew \(the source has changed since\); allowed: --fr"):
         fly_study(study, StudyOptions(out=out), flyer=here(fly))
 
