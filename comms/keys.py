@@ -19,6 +19,7 @@ from dataclasses import dataclass
 
 WORLD, RECORDER = "world", "recorder"
 _ROOT = "swarm/@v1"
+_ALIVE = re.compile(rf"{_ROOT}/(?P<mission>[A-Za-z0-9][A-Za-z0-9_.-]{{0,63}})/alive/(?P<who>[a-z0-9]+)")
 _MISSION = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
 
 
@@ -64,9 +65,13 @@ class Keys:
         """Everybody's token."""
         return f"{_ROOT}/{self.mission}/alive/*"
 
-    def command(self, uid: int, verb: str) -> str:
-        """Where agent `uid` takes a command from people."""
-        return f"{_ROOT}/{self.mission}/cmd/{uid}/{verb}"
+    def command(self, who: int | str, verb: str) -> str:
+        """Where agent `who`, or the WORLD, takes a command from people."""
+        return f"{_ROOT}/{self.mission}/cmd/{who}/{verb}"
+
+    def every_command(self, who: int | str) -> str:
+        """What it listens to."""
+        return f"{_ROOT}/{self.mission}/cmd/{who}/*"
 
     def cue(self, uid: int) -> str:
         """Where the world tells agent `uid` that a tick begins."""
@@ -90,6 +95,20 @@ class Keys:
     def kept(self) -> str:
         """Where the recorder tells the world how far it has got."""
         return f"{_ROOT}/{self.mission}/@sim/kept"
+
+
+EVERYBODY_OF_ANY_MISSION = f"{_ROOT}/*/alive/*"
+
+
+def somebody(key: str) -> tuple[Keys, str] | None:
+    """Whom an `alive` key names: the keys of its mission, and who; None if it is another key."""
+    found = _ALIVE.fullmatch(key)
+    return None if found is None else (Keys(found["mission"]), found["who"])
+
+
+def verb_of(key: str) -> str:
+    """The last chunk of a command's key."""
+    return key.rpartition("/")[2]
 
 
 def sender(key: str) -> int | None:

@@ -11,6 +11,7 @@ import json
 import re
 import sys
 from collections.abc import Callable, Sequence
+from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -18,11 +19,14 @@ from typing import TYPE_CHECKING
 from missions.arguments import count, new_file, report, whole
 from missions.daemons.arguments import (
     AGENT,
+    FLEET,
     RECORD,
     WORLD,
+    add_fleet,
     add_processes,
     add_speed,
     agent_options,
+    fleet_examples,
     record_options,
     world_options,
 )
@@ -115,6 +119,13 @@ def agent(options: argparse.Namespace) -> int:
     from missions.daemons import verbs
 
     return verbs.agent(_mission(options), options)
+
+
+def fleet(verb: str, options: argparse.Namespace) -> int:
+    """Tell vehicles that are under way, or ask them."""
+    from missions.daemons import verbs
+
+    return verbs.fleet(verb, options)
 
 
 def check(options: argparse.Namespace) -> int:
@@ -348,6 +359,8 @@ def _parser() -> argparse.ArgumentParser:
 
     _one_mission(world_options(_verb(verbs, "world", world, "run a mission's world for other processes", WORLD)))
     _one_mission(agent_options(_verb(verbs, "agent", agent, "run one agent of a mission, or several", AGENT)))
+    for name, about in FLEET.items():
+        add_fleet(_verb(verbs, name, partial(fleet, name), about, fleet_examples(name)))
     _one_mission(record_options(_verb(verbs, "record", record, "record a mission of other processes", RECORD)))
 
     checking = _verb(verbs, "check", check, "validate missions", _CHECK)

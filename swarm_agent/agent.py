@@ -18,7 +18,7 @@ from comms.knowledge import Knowledge
 from comms.messages import Frame, Sighting
 from comms.signing import Signing
 from comms.status import Activity, AgentStatus, HelpCallStatus
-from swarm_agent.autopilot import Fly, Intent, Phase, Pilot, PilotConfig, PilotState, Prepare, Return
+from swarm_agent.autopilot import Fly, Intent, Land, Phase, Pilot, PilotConfig, PilotState, Prepare, Return
 from swarm_agent.bcmommt.belief import NOBODY, Table, begin_tick, cell_columns, cell_rows, new_table, see
 from swarm_agent.bcmommt.modes import Mode
 from swarm_agent.bcmommt.params import Explore, Params
@@ -40,12 +40,15 @@ class Order(NamedTuple):
 
     Attributes:
         mission_tick: ticks since the mission began, or None before it begins and after it ends.
-        come_home: the mission is over: return and land.
+        come_home: the mission is over: return and land. land: land on the spot, at once.
+        hold: go on watching and speaking, but stay where it is.
         explain: somebody wants to know what every agent knows, and why it does what it does.
     """
 
     mission_tick: int | None = None
     come_home: bool = False
+    land: bool = False
+    hold: bool = False
     explain: bool = False
 
 
@@ -116,17 +119,17 @@ class Agent:
         pilot.listen(now_s, telemetry)
         state = pilot.state
         self._guard.hear(now_s, inbox)
-        come_home = order.come_home or self._guard.spent(state.battery)
+        come_home = order.come_home or order.land or self._guard.spent(state.battery)
         frame: Frame | None = None
         intent: Intent
         on_duty = state.ready and not state.link_lost and order.mission_tick is not None and not come_home
         if on_duty and order.mission_tick is not None and state.position_m and state.velocity_m_s:
             self._mates.hear(now_s, state.position_m, inbox)
             self._perceive(now_s, state.position_m, sightings, inbox)
-            intent = self._decide(now_s, order.mission_tick, state.position_m)
+            intent = self._decide(now_s, order.mission_tick, state.position_m, hold=order.hold)
             frame = self._say(now_s, state.position_m, state.velocity_m_s)
         else:
-            intent = Return() if come_home else Prepare()
+            intent = Land() if order.land else Return() if come_home else Prepare()
             if self._on_duty:  # on the ground or in other hands it must not hold on to targets
                 self._table, self._mind = self._innocence()
                 self._mates = self._new_mates()
@@ -170,12 +173,12 @@ class Agent:
         for target, x, y in sightings:
             see(table, self._config.params, target, x, y, me[0], me[1], now_s)
 
-    def _decide(self, now_s: float, mission_tick: int, me: tuple[float, float, float]) -> Fly:
+    def _decide(self, now_s: float, mission_tick: int, me: tuple[float, float, float], *, hold: bool) -> Fly:
         config = self._config
         self._mind, east, north = decide(
             self._table, config.params, self._mind, config.uid, me[0], me[1], now_s, config.seed, mission_tick
         )
-        self._wanted_m_s = east, north
+        self._wanted_m_s = (0.0, 0.0) if hold else (east, north)
         return Fly(self._guard.safe(now_s, me, self._wanted_m_s))
 
     def _say(

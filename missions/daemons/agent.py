@@ -6,22 +6,26 @@ If the world goes first, it flies home on its own clock.
 
 from __future__ import annotations
 
+import queue
 from collections.abc import Sequence
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, field
+from functools import partial
 from time import monotonic, sleep
 
 from msgspec import structs
 
 from comms.clock import Lockstep, Pace, RealTime
-from comms.keys import WORLD, Keys, sender
+from comms.keys import WORLD, Keys, sender, verb_of
 from comms.mailbox import Mailbox
 from comms.radio import Radio
-from comms.session import BusError, Network, Put, open_client
+from comms.session import BusError, Network, Put, Question, open_client
 from comms.status import Activity
 from comms.transport import Transport
 from missions.daemons.ending import Ending
 from missions.daemons.log import Log
 from missions.daemons.options import DaemonOptions, fingerprint
+from missions.daemons.orders import Answer, Orders, Verb, Watch, encode_answer
 from missions.daemons.wire import OVER, decode_cue, encode
 from missions.links import open_transports
 from missions.mission import Mission
@@ -36,6 +40,7 @@ DONE, FAILED, STOPPED = 0, 1, 130
 HELLO_EVERY_S = 0.2
 FRAMES_LATE_S = 10.0  # frames that are under way and do not come for so long are lost
 FRAME_LOOK_S = 1e-4
+MAX_QUESTIONS = 100
 
 
 def agent(mission: Mission, uids: Sequence[int], options: DaemonOptions) -> int:
@@ -65,6 +70,8 @@ class _Seat:
     side: AgentSide
     put: Put
     last: Done
+    orders: Orders = field(default_factory=Orders)
+    watch: Watch = field(default_factory=Watch)
     met: bool = False  # the world has cued it
     over: bool = False
 
@@ -87,6 +94,7 @@ class _Daemon:
         self._log = log
         self._keys = Keys(mission.name)
         self._mail = Mailbox(uids)
+        self._questions: queue.Queue[tuple[int, Question]] = queue.Queue(MAX_QUESTIONS)
         self._radios = {uid: Radio(bus, keys=self._keys, uid=uid) for uid in uids}
         self._world_gone = False
         self._seats = {uid: self._seat(uid, started_tick=0) for uid in uids}
@@ -97,11 +105,13 @@ class _Daemon:
         for uid in self._seats:
             bus.subscribe(keys.cue(uid), lambda key, payload: self._mail.put(sender(key), payload))
             bus.declare_alive(keys.alive(uid))
+            bus.answer(keys.every_command(uid), partial(self._ask, uid))
         bus.watch(keys.alive(WORLD), self._on_world)
         deadline_s = monotonic() + join_s
         while self._flying():
             self._greet()
             self._mail.wait(self._flying(), timeout_s=HELLO_EVERY_S)
+            self._answer()
             for uid, wire in self._mail.take().items():
                 self._take(self._seats[uid], wire)
             if not any(seat.met for seat in self._seats.values()):
@@ -147,20 +157,35 @@ class _Daemon:
             if cue.tick > 0:  # it comes back to a mission that is under way: its vehicle is switched on now
                 seat = self._seats[seat.side.uid] = self._seat(seat.side.uid, started_tick=cue.tick)
             seat.met = True
-        if self._ending.asked:
-            cue = structs.replace(cue, come_home=True)
         self._await_frames(seat.side.computer, cue)
         self._tick(seat, cue)
 
     def _tick(self, seat: _Seat, cue: Cue) -> None:
-        self._log.time_s = cue.tick * self._mission.tick_s
-        done = seat.side.tick(cue)
-        if self._ending.asked and done.status.activity is Activity.LANDED:
+        began_s, time_s = monotonic(), cue.tick * self._mission.tick_s
+        self._log.time_s = time_s
+        if self._ending.asked:
+            seat.orders.take(Verb.STOP, seat.last.status.activity)
+        done = seat.side.tick(seat.orders.amend(cue))
+        seat.watch.see(done, time_s=time_s, late_s=cue.late_s, busy_s=monotonic() - began_s)
+        if seat.orders.leave and done.status.activity is Activity.LANDED:
             done = structs.replace(done, leaves=True)
             seat.over = True
         seat.last = done
         seat.put(encode(done))
         self._log.events(done.status.events, who=_name([seat.side.uid]))
+
+    def _ask(self, uid: int, question: Question) -> None:
+        with suppress(queue.Full):  # whoever asks so often gets no answer, and asks again
+            self._questions.put_nowait((uid, question))
+
+    def _answer(self) -> None:
+        """What people have told us since the last tick."""
+        while not self._questions.empty():
+            uid, question = self._questions.get_nowait()
+            seat = self._seats[uid]
+            obeyed, text = seat.orders.take(verb_of(question.key), seat.last.status.activity)
+            report = seat.watch.report(seat.last, time_s=self._log.time_s)
+            question.answer(encode_answer(Answer(obeyed=obeyed, text=text, report=report)))
 
     def _await_frames(self, computer: Computer, cue: Cue) -> None:
         due, deadline_s = computer.due(cue), monotonic() + FRAMES_LATE_S

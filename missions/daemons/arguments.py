@@ -31,6 +31,27 @@ RECORD = """examples:
 Start it before the last agent, or begin the world with --recorded: it records from when it is there until the mission
 is over. SIGTERM: the recording ends there, whole, and the code is 0."""
 
+# What each verb for vehicles under way does.
+FLEET = {
+    "status": "show how every vehicle is: a table, live on a terminal",
+    "hold": "let vehicles stay where they are, watching",
+    "resume": "let vehicles go on after a hold",
+    "return": "bring vehicles home, and let the others go on",
+    "land": "land vehicles where they are",
+    "stop": "bring the swarm home and end it; with --id, an agent and its process",
+}
+
+
+def fleet_examples(verb: str) -> str:
+    """How the verb is used."""
+    return f"""examples:
+  swarm {verb}
+  swarm {verb} quickstart --id 3
+  swarm {verb} --connect tcp/10.0.0.5:7447
+
+Speaks to the processes of `swarm launch --processes`, or of `swarm world` and `swarm agent`. Every vehicle answers for
+itself, and is asked three times; the code is 1 if any refuses, or gives no answer."""
+
 
 def world_options(parser: Parser) -> Parser:
     """Add what `swarm world` has."""
@@ -85,3 +106,11 @@ def _add_log_level(parser: Parser, *, default: str) -> None:
     parser.add_argument(
         "--log-level", choices=[str(level) for level in LEVELS], default=default, metavar="LEVEL", help=about
     )
+
+
+def add_fleet(parser: Parser) -> None:
+    """Add what the verbs for vehicles under way have."""
+    parser.add_argument("mission", nargs="?", metavar="MISSION", help="the mission's file or name; all there, if none")
+    parser.add_argument("--id", metavar="N", help="this agent, or these: 0-4; everybody, if none")
+    about = f"where the world listens ({ENDPOINT})"
+    parser.add_argument("--connect", default=ENDPOINT, metavar="ENDPOINT", help=about)

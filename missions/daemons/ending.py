@@ -43,12 +43,17 @@ class Ending:
             for number, handler in before.items():
                 signal.signal(number, handler)
 
+    def ask(self) -> None:
+        """End, please."""
+        if not self.asked:
+            self.asked = True
+            self._tell("asked to end: landing first; a second time ends at once")
+
     def _hear(self, number: int, frame: FrameType | None) -> None:
         if self.asked:
             raise KeyboardInterrupt
-        self.asked = True
         self.interrupted = number == signal.SIGINT
-        self._tell("asked to end: landing first; a second time ends at once")
+        self.ask()
 
 
 def _feel() -> None:

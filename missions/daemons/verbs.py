@@ -9,9 +9,12 @@ from math import isinf
 from comms.status import Level
 from missions.daemons.options import DaemonOptions
 from missions.daemons.processes import ProcessOptions, ProcessPlan, plan_processes
+from missions.load import load_mission
 from missions.mission import Mission
 from missions.options import LaunchOptions, speed_of
 from missions.problems import InputError
+
+MAX_AGENTS = 250  # a MAVLink system id is one byte
 
 
 def world(mission: Mission, options: argparse.Namespace) -> int:
@@ -60,6 +63,19 @@ def launch(mission: Mission, options: argparse.Namespace) -> int:
     return run_processes(processes(mission, options), endpoint=options.listen, console=Console(stderr=True))
 
 
+def fleet(verb: str, options: argparse.Namespace) -> int:
+    """Tell vehicles that are under way, or ask them."""
+    mission = None if options.mission is None else load_mission(options.mission)
+    uids = None
+    if options.id is not None:
+        uids = whole_range(options.id) if mission is None else uids_of(mission, options.id)
+    from missions.daemons.fleet import FleetOptions, tell
+    from missions.daemons.orders import Verb
+
+    name = None if mission is None else mission.name
+    return tell(Verb(verb), FleetOptions(endpoint=options.connect, mission=name, uids=uids))
+
+
 def processes(mission: Mission, options: argparse.Namespace) -> tuple[ProcessPlan, ...]:
     """What a launch with these options would start."""
     given = vars(options)
@@ -94,13 +110,21 @@ def uids_of(mission: Mission, text: str) -> tuple[int, ...]:
     Raises:
         InputError: the mission has no such agents.
     """
+    return whole_range(text, most=mission.agents.count - 1)
+
+
+def whole_range(text: str, *, most: int = MAX_AGENTS - 1) -> tuple[int, ...]:
+    """The numbers that `3`, or `0-4`, names.
+
+    Raises:
+        InputError: it names none up to `most`.
+    """
     first, dash, last = text.partition("-")
     numbers = [first, last if dash else first]
     if all(number.isascii() and number.isdigit() and len(number) < 6 for number in numbers):
         low, high = map(int, numbers)
-        if low <= high < mission.agents.count:
+        if low <= high <= most:
             return tuple(range(low, high + 1))
-    most = mission.agents.count - 1
     raise InputError(f'--id: got "{text}"; allowed: a number from 0 to {most}, or several, such as 0-{most}')
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import queue
 import time
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from math import inf
@@ -10,12 +12,13 @@ from math import inf
 from rich.console import Console
 
 from comms.keys import WORLD, Keys
-from comms.session import BusError, Network, open_router
+from comms.session import BusError, Network, Question, open_router
 from missions.daemons.crew import CrewError, Patience, RemoteCrew
 from missions.daemons.ending import Ending
 from missions.daemons.feed import Feed
 from missions.daemons.log import Log
 from missions.daemons.options import DaemonOptions, fingerprint
+from missions.daemons.orders import Answer, Verb, encode_answer
 from missions.faults.costs import Costs
 from missions.launch import DONE, FAILED, STOPPED, explain_every_s, pace_of
 from missions.metrics import Metrics
@@ -31,6 +34,7 @@ LOST_S = 10.0
 LOST_IN_REAL_TIME_S = 3.0
 # Of a tick, in real time: what is left is for the world itself.
 TICK_SHARE = 0.8
+MAX_QUESTIONS = 100
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,7 +85,7 @@ def _run(
     console: Console,
 ) -> int:
     keys, metrics = Keys(mission.name), Metrics(costs=Costs(mission.faults, tick_s=mission.tick_s))
-    side = WorldSide(mission, bus)
+    side, desk = WorldSide(mission, bus), _Desk(bus, keys, ending)
     crew = RemoteCrew(
         bus,
         keys=keys,
@@ -90,7 +94,7 @@ def _run(
         patience=_patience(mission, daemon, options),
         fingerprint=fingerprint(mission),
         tell=log.error,
-        stop=lambda: ending.asked,
+        stop=desk.is_closing,
     )
     feed = Feed(bus, keys=keys, lockstep=daemon.lockstep, begin=partial(_explain, side))
     bus.declare_alive(keys.alive(WORLD))
@@ -103,7 +107,7 @@ def _run(
         began_s = time.monotonic()
         with _progress(mission, console, metrics) as progress:
             observers.append(progress)
-            fly(side, crew, pace=pace_of(mission, options.speed), observers=observers, stop=lambda: ending.asked)
+            fly(side, crew, pace=pace_of(mission, options.speed), observers=observers, stop=desk.is_closing)
     finally:
         crew.dismiss()
         feed.close()
@@ -131,6 +135,26 @@ def _patience(mission: Mission, daemon: DaemonOptions, options: WorldOptions) ->
         return Patience(join_s=daemon.join_s, tick_s=LOST_S, lost_s=LOST_S, lockstep=True)
     tick_s = TICK_SHARE * mission.tick_s / options.speed
     return Patience(join_s=daemon.join_s, tick_s=tick_s, lost_s=LOST_IN_REAL_TIME_S, lockstep=False)
+
+
+class _Desk:
+    """Where people come to stop the mission."""
+
+    def __init__(self, bus: Network, keys: Keys, ending: Ending) -> None:
+        self._ending = ending
+        self._questions: queue.Queue[Question] = queue.Queue(MAX_QUESTIONS)
+        bus.answer(keys.command(WORLD, Verb.STOP), self._ask)
+
+    def is_closing(self) -> bool:
+        """Whether anybody has asked for the end, in whatever way."""
+        while not self._questions.empty():
+            self._ending.ask()
+            self._questions.get_nowait().answer(encode_answer(Answer(obeyed=True, text="everybody comes home")))
+        return self._ending.asked
+
+    def _ask(self, question: Question) -> None:
+        with suppress(queue.Full):
+            self._questions.put_nowait(question)
 
 
 class _Teller:

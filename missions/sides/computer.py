@@ -34,7 +34,13 @@ class Computer:
         if self._out:
             self._out, self.agent = False, self.agent.begun_anew()
         self._check_inbox(cue, now_s)
-        order = Order(mission_tick=cue.mission_tick, come_home=cue.come_home, explain=cue.explain)
+        order = Order(
+            mission_tick=cue.mission_tick,
+            come_home=cue.come_home,
+            land=cue.land,
+            hold=cue.hold,
+            explain=cue.explain,
+        )
         telemetry, self._telemetry, self._backlog = self._telemetry, b"", 0
         output = self.agent.tick(now_s, order, cue.sightings, self.radio.drain(now_s), telemetry)
         if output.frame is not None:

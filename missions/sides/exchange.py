@@ -21,19 +21,23 @@ class Cue(msgspec.Struct, frozen=True, kw_only=True, array_like=True):
     Attributes:
         tick: ticks since power-on. mission_tick: since MISSION began; None outside it.
         fault_tick: since MISSION began, after its end too: the time of the mission's faults.
-        come_home: the mission is over: return and land.
+        come_home: the mission is over: return and land. land: land on the spot. hold: stay where it is, on duty.
         explain: somebody wants to know what the agent knows.
         sightings: what the agent's sensor sees now.
         frames: how many have been sent to its radio for this tick; None where nobody waits for them (real time).
+        late_s: how late the tick began, on the wall clock.
     """
 
     tick: int
     mission_tick: int | None = None
     fault_tick: int | None = None
     come_home: bool = False
+    land: bool = False
+    hold: bool = False
     explain: bool = False
     sightings: tuple[Sighting, ...] = ()
     frames: int | None = 0
+    late_s: float = 0.0
 
 
 class LinkCount(msgspec.Struct, frozen=True, array_like=True):

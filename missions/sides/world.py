@@ -95,6 +95,7 @@ class WorldSide:
                 explain=self._is_explained(),
                 sightings=tuple(seen),
                 frames=frames,
+                late_s=late_s,
             )
             for seen, frames in zip(sightings, self.air.due, strict=True)
         ]

@@ -1,0 +1,158 @@
+"""`swarm status`, `hold`, `resume`, `return`, `land` and `stop`: people speak to vehicles that are under way.
+
+Each vehicle answers for itself. Who does not answer is asked again, and has failed in the end.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from time import sleep
+
+from rich.console import Console
+from rich.live import Live
+from rich.table import Table
+
+from comms.keys import EVERYBODY_OF_ANY_MISSION, WORLD, Keys, somebody
+from comms.session import BusError, Network, open_client
+from missions.daemons.options import ENDPOINT
+from missions.daemons.orders import Answer, Report, Verb, decode_answer
+
+DONE, FAILED = 0, 1
+
+CONNECT_S = 3.0
+ANSWER_S = 2.0
+ATTEMPTS = 3
+REFRESH_S = 0.5
+_NEVER_WRAP = 1000
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FleetOptions:
+    """Whom to tell, and where.
+
+    Attributes:
+        mission: its name; None: of all missions there. uids: these agents; None: everybody.
+    """
+
+    endpoint: str = ENDPOINT
+    mission: str | None = None
+    uids: tuple[int, ...] | None = None
+
+
+Who = tuple[str, str]  # mission, and uid or WORLD
+Answers = dict[Who, Answer | None]
+
+
+def tell(verb: Verb, options: FleetOptions) -> int:
+    """Tell everybody, and say what came of it. Returns 1 if anybody failed."""
+    console = Console(width=None if sys.stdout.isatty() else _NEVER_WRAP)
+    try:
+        with open_client(options.endpoint, lossless=True, patience_s=CONNECT_S) as bus:
+            if verb is Verb.STATUS and console.is_terminal:
+                return _watch(bus, options, console)
+            answers = ask(bus, verb, options)
+    except BusError as error:
+        sys.stderr.write(f"{error}: does `swarm launch --processes` or `swarm world` run there?\n")
+        return FAILED
+    if not answers:
+        sys.stderr.write(f"nobody of {options.mission or 'any mission'} is there\n")
+        return FAILED
+    console.print(status_table(answers) if verb is Verb.STATUS else result_table(answers))
+    return DONE if all(answer is not None and answer.obeyed for answer in answers.values()) else FAILED
+
+
+def ask(bus: Network, verb: Verb, options: FleetOptions) -> Answers:
+    """Everybody's answer; None of those who give none."""
+    answers: Answers = dict.fromkeys(_addressed(bus, verb, options))
+    for _ in range(ATTEMPTS):
+        for mission, who in [who for who, answer in answers.items() if answer is None]:
+            found = bus.ask(Keys(mission).command(who, verb), timeout_s=ANSWER_S)
+            answers[mission, who] = next((answer for _, wire in found if (answer := decode_answer(wire))), None)
+    return answers
+
+
+def _addressed(bus: Network, verb: Verb, options: FleetOptions) -> list[Who]:
+    """Who is to answer: those who are there, and those who were named. All stop when their world does."""
+    there = [found for key in bus.alive(EVERYBODY_OF_ANY_MISSION) if (found := somebody(key)) is not None]
+    named = [(keys.mission, who) for keys, who in there if options.mission in (None, keys.mission)]
+    if options.uids is not None:
+        missions = sorted({mission for mission, _ in named} | ({options.mission} if options.mission else set()))
+        return [(mission, str(uid)) for mission in missions for uid in options.uids]
+    worlds = [(mission, who) for mission, who in named if who == WORLD]
+    if verb is Verb.STOP and worlds:
+        return worlds
+    return sorted(((mission, who) for mission, who in named if who.isdigit()), key=lambda who: (who[0], int(who[1])))
+
+
+def _watch(bus: Network, options: FleetOptions, console: Console) -> int:
+    """The status as it changes, until Ctrl-C or until nobody is there any more."""
+    answers: Answers = {}
+    try:
+        with Live(console=console, auto_refresh=False) as live:
+            while now := ask(bus, Verb.STATUS, options):
+                answers = now
+                live.update(status_table(answers), refresh=True)
+                sleep(REFRESH_S)
+    except KeyboardInterrupt:
+        pass
+    return DONE if answers and all(answers.values()) else FAILED
+
+
+def result_table(answers: Answers) -> Table:
+    """What came of an order, by vehicle."""
+    table = _table(("mission", "agent", "", "what"))
+    for (mission, who), answer in answers.items():
+        if answer is None:
+            table.add_row(mission, who, "failed", "does not answer", style="red")
+        else:
+            table.add_row(mission, who, "ok" if answer.obeyed else "failed", answer.text)
+    return table
+
+
+def status_table(answers: Answers) -> Table:
+    """How every vehicle is."""
+    columns = (
+        "mission",
+        "agent",
+        "time",
+        "does",
+        "mode",
+        "battery",
+        "follows",
+        "hears",
+        "link",
+        "heard",
+        "late",
+        "busy",
+    )
+    table = _table(columns)
+    for (mission, who), answer in answers.items():
+        if answer is None or answer.report is None:
+            table.add_row(mission, who, "", "does not answer", style="red")
+        else:
+            table.add_row(mission, who, *_cells(answer.report))
+    return table
+
+
+def _cells(report: Report) -> Sequence[str]:
+    return (
+        f"{report.time_s:.1f} s",
+        report.activity.value,
+        report.flight_mode,
+        "" if report.battery is None else f"{report.battery:.0%}",
+        " ".join(f"T{target}" for target in report.tags),
+        f"{report.mates}",
+        "" if report.link is None else f"{report.link:.1%}",
+        f"{report.heard_ago_s:.1f} s ago",
+        f"{report.late_s * 1000:.0f} ms",
+        f"{report.busy_s * 1000:.1f} ms",
+    )
+
+
+def _table(columns: Sequence[str]) -> Table:
+    table = Table(box=None, pad_edge=False)
+    for column in columns:
+        table.add_column(column, no_wrap=True)
+    return table

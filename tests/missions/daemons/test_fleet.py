@@ -1,0 +1,101 @@
+"""People and vehicles under way: every order has a result from every vehicle."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from comms.status import Activity
+from missions.daemons.orders import Answer, Orders, Verb, decode_answer, encode_answer
+from missions.sides.exchange import Cue
+from tests.missions.daemons.swarm import COMMAND, PATIENCE_S, ROOT, SMALL, free_endpoint, swarm
+
+CUE = Cue(tick=7, mission_tick=3)
+
+
+@pytest.mark.parametrize(
+    ("verb", "activity", "obeyed", "text"),
+    [
+        ("status", Activity.LOST, True, ""),
+        ("hold", Activity.FOLLOW, True, "holds"),
+        ("resume", Activity.EXPLORE, True, "goes on"),
+        ("return", Activity.HELPING, True, "comes home"),
+        ("land", Activity.PREPARING, True, "lands"),
+        ("stop", Activity.EXPLORE, True, "comes home"),
+        ("hold", Activity.RETURNING, False, "is on its way down"),
+        ("hold", Activity.LANDED, False, "is landed"),
+        ("land", Activity.LANDED, True, "is landed"),
+        ("return", Activity.LOST, False, "is lost"),
+        ("stop", Activity.LANDED, True, "comes home"),
+        ("loop", Activity.FOLLOW, False, "knows no loop"),
+    ],
+)
+def test_what_a_vehicle_obeys(verb: str, activity: Activity, obeyed: bool, text: str) -> None:
+    assert Orders().take(verb, activity) == (obeyed, text)
+
+
+def test_orders_stand_and_the_way_down_is_not_taken_back() -> None:
+    orders = Orders()
+    assert orders.amend(CUE) is CUE
+    orders.take("hold", Activity.FOLLOW)
+    assert orders.amend(CUE).hold
+    assert not orders.amend(CUE).come_home
+    orders.take("resume", Activity.FOLLOW)
+    assert orders.amend(CUE) is CUE
+    orders.take("land", Activity.FOLLOW)
+    orders.take("return", Activity.FOLLOW)
+    assert orders.take("resume", Activity.FOLLOW) == (False, "is on its way down")
+    assert orders.amend(CUE).land
+    assert orders.amend(CUE).come_home
+
+
+@pytest.mark.parametrize(
+    "wire", [b"", b"\xc1", b"\x81\xa6obeyed\x03", encode_answer(Answer(obeyed=True, text="x"))[:-1]]
+)
+def test_an_answer_that_is_none_is_nothing(wire: bytes) -> None:
+    assert decode_answer(wire) is None
+
+
+def tell(*words: str) -> tuple[int, str]:
+    done = subprocess.run((*COMMAND, *words), capture_output=True, text=True, timeout=PATIENCE_S, cwd=ROOT, check=False)
+    return done.returncode, done.stdout + done.stderr
+
+
+def test_a_swarm_is_held_resumed_landed_and_stopped(tmp_path: Path) -> None:
+    endpoint, file = free_endpoint(), tmp_path / "report.json"
+    launch = ("launch", "quickstart", *SMALL, "--speed", "5", "--duration", "600", "--log-level", "info")
+    with swarm(*launch, "--report", str(file), "--processes", "--listen", endpoint) as run:
+        run.wait_for("the mission begins")
+        at = ("quickstart", "--connect", endpoint)
+        code, text = tell("status", "--connect", endpoint)
+        assert code == 0, text
+        assert text.count("GUIDED") == 3
+        code, text = tell("hold", *at)
+        assert (code, text.count("holds")) == (0, 3), text
+        code, text = tell("resume", *at, "--id", "1")
+        assert (code, text.count("goes on")) == (0, 1), text
+        code, text = tell("land", *at, "--id", "0")
+        assert (code, text.count("lands")) == (0, 1), text
+        run.wait_for('who=agent-0 text="landed and disarmed"')
+        code, text = tell("hold", *at)
+        assert code == 1  # two hold, one has landed
+        assert (text.count("holds"), text.count("is landed")) == (2, 1), text
+        code, text = tell("return", *at, "--id", "7")
+        assert code == 1
+        assert "does not answer" in text
+        code, text = tell("stop", *at)
+        assert (code, text.count("everybody comes home")) == (0, 1), text
+        assert run.wait() == 0, run.output
+    assert json.loads(file.read_text())["duration_s"] < 600.0
+
+
+def test_where_nobody_is_nobody_is_told() -> None:
+    code, text = tell(Verb.LAND, "--connect", free_endpoint())
+    assert code == 1
+    assert "does `swarm launch --processes` or `swarm world` run there?" in text
+    assert "Traceback" not in text
+    code, text = tell(Verb.LAND, "quickstart", "--id", "10")
+    assert (code, text) == (2, '--id: got "10"; allowed: a number from 0 to 9, or several, such as 0-9\n')
