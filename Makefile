@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 PEERS := .venv-peers
 CLIENTS := .venv-clients
 
-.PHONY: run test test-slow test-clients fuzz check format bench bench-vehicles bench-recording bench-peers clean
+.PHONY: run test test-slow test-clients fuzz check format bench bench-vehicles bench-recording pictures bench-peers clean
 
 run: $(VENV)/ground.done
 	@mkdir -p out
@@ -44,6 +44,10 @@ bench-vehicles: $(VENV)/all.done
 
 bench-recording: $(VENV)/all.done
 	$(BIN)/python -m tests.benchmarks.recording
+
+# What docs/ shows of recordings; needs Debian's mesa-vulkan-drivers and libvulkan1. PICTURES="faults map" for some.
+pictures: $(VENV)/all.done
+	$(BIN)/python -m tests.pictures $(PICTURES)
 
 bench-peers: $(VENV)/all.done $(PEERS)/peers.done
 	$(PEERS)/bin/python -m tests.benchmarks.peers.run --study $(BIN)/python

@@ -15,7 +15,7 @@ from missions.recording.places import GRAPH_SIZE
 from missions.recording.scene import Scene
 from missions.recording.tape import TICK_LINE, TIME_LINE
 
-_TRAIL_S = 20.0
+_TRAIL_S, _MAP_TRAIL_S = 20.0, 60.0
 
 
 def blueprint(scene: Scene, *, live: bool) -> rrb.Blueprint:
@@ -107,7 +107,8 @@ def _telemetry() -> rrb.Container:
 
 
 def _map() -> rrb.View:
-    return rrb.MapView(origin="/geo", name="Map")
+    lately = rrb.VisibleTimeRanges(_lately(_MAP_TRAIL_S))
+    return rrb.MapView(origin="/geo", name="Map", overrides={"/geo/trail": [lately, rr.GeoLineStrings.from_fields()]})
 
 
 def _numbers(path: str) -> rrb.components.ComponentColumnSelector:

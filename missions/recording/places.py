@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import pi
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -10,14 +12,20 @@ import rerun as rr
 
 from comms.frames import geo_from_enu
 from missions.recording import palette
-from missions.recording.block import Block, Floats
-from missions.recording.columns import Rows
+from missions.recording.block import Block
+from missions.recording.columns import Rows, doing, faded
 from missions.recording.scene import Scene
+from missions.recording.swarm import GROUNDED
 
 # The side of the radio graph in its own units; a node's label is about 30 wide.
 GRAPH_SIZE = 220.0
 
 _STEP_S = 1.0
+_SIGHT_ALPHA, _TRAIL_ALPHA = 200, 170
+# Rings of more agents than this hide more than they tell.
+_RINGED = 40
+_AROUND = np.linspace(0.0, 2 * pi, 21)
+_RING = np.column_stack((np.cos(_AROUND), np.sin(_AROUND), np.zeros_like(_AROUND)))
 
 
 class Places:
@@ -25,13 +33,18 @@ class Places:
 
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
+        self._before: npt.NDArray[np.float64] | None = None  # where agents were a second ago, degrees
 
     def rows(self, block: Block) -> Iterator[Rows]:
         """Places of agents and targets, nodes and edges of the radio."""
         block = block.every(_STEP_S)
         each = [self._scene.n_agents] * len(block)
-        agents = rr.GeoPoints.columns(positions=self._geo(block.positions_m), colors=block.colors.ravel())
+        places = self._geo(block.positions_m)
+        agents = rr.GeoPoints.columns(positions=places, colors=block.colors.ravel())
         yield Rows("/geo/agents", block, agents.partition(each))
+        if self._scene.n_agents <= _RINGED:
+            yield Rows("/geo/sight", block, self._sight(block))
+        yield Rows("/geo/trail", block, self._trail(block, places).partition(each))
         colors = np.where(block.seen, palette.TAGGED, palette.UNSEEN).astype(np.uint32)[block.present]
         targets = rr.GeoPoints.columns(positions=self._geo(block.targets_m[block.present]), colors=colors)
         yield Rows("/geo/targets", block, targets.partition(block.present.sum(axis=1)))
@@ -40,6 +53,24 @@ class Places:
         names = self._scene.agent_names
         columns = rr.GraphEdges.columns(edges=[(names[a], names[b]) for a, b in edges])
         yield Rows("/radio/graph", block, columns.partition([len(seen.links) for seen in block.observations]))
+
+    def _sight(self, block: Block) -> rr.ComponentColumnList:
+        """A ring as far as each agent in the air sees, also around those that see a sector of it."""
+        flying = doing(block, lambda activity: activity not in GROUNDED)
+        ranges = np.broadcast_to(np.array(self._scene.sensing_ranges_m), flying.shape)[flying]
+        rings = block.positions_m[flying][:, None, :] + ranges[:, None, None] * _RING
+        lines = self._geo(rings).reshape(-1, len(_RING), 2)
+        colors = faded(block.colors[flying], _SIGHT_ALPHA)
+        columns = rr.GeoLineStrings.columns(line_strings=list(lines), colors=colors)
+        return columns.partition(flying.sum(axis=1))
+
+    def _trail(self, block: Block, places: npt.NDArray[np.float64]) -> rr.ComponentColumnList:
+        """From where each agent was a second ago to where it is: the view shows the latest of these pieces."""
+        ends = places.reshape(len(block), -1, 2)
+        starts = np.concatenate(([ends[0] if self._before is None else self._before], ends[:-1])) if len(ends) else ends
+        self._before = ends[-1] if len(ends) else self._before
+        pieces = np.stack((starts, ends), axis=2).reshape(-1, 2, 2)
+        return rr.GeoLineStrings.columns(line_strings=list(pieces), colors=faded(block.colors.ravel(), _TRAIL_ALPHA))
 
     def _nodes(self, block: Block) -> rr.ComponentColumnList:
         """Nodes where the agents are, north up: a graph's second axis points down."""
@@ -51,7 +82,7 @@ class Places:
             node_ids=names, labels=names, positions=flat.reshape(-1, 2).astype(np.float32), colors=block.colors.ravel()
         )
 
-    def _geo(self, places_m: Floats) -> npt.NDArray[np.float64]:
+    def _geo(self, places_m: npt.NDArray[np.floating[Any]]) -> npt.NDArray[np.float64]:
         """(..., 3) ENU as (P, 2) degrees of latitude and longitude."""
         points = [geo_from_enu(self._scene.home, (x, y, z)) for x, y, z in places_m.reshape(-1, 3).tolist()]
         return np.array([(point.latitude_deg, point.longitude_deg) for point in points]).reshape(-1, 2)

@@ -32,7 +32,7 @@ from missions.recording.watch import WebPage, open_window
 
 _QUEUED_S = 5.0
 # Mission time from one flush to the next: what a killed process loses, and what a live viewer lags behind.
-_FLUSH_S, _LIVE_FLUSH_S = 1.0, 0.2
+_FLUSH_S, _LIVE_FLUSH_S = 1.0, 0.5
 _LAYERS = (
     SeenGround, Swarm, Targets, Relations, Lanes, EventLog, Metrics, Telemetry, Places, Minds, Messages, Ledger,
 )  # fmt: skip

@@ -193,6 +193,8 @@ def _set_map(tape: Tape, scene: Scene) -> None:
         rr.GeoLineStrings(lat_lon=[line], colors=[palette.EDGE], radii=_on_screen(1.5)),
     )
     tape.log_static("/geo/agents", rr.GeoPoints.from_fields(radii=_on_screen(5.0)))
+    tape.log_static("/geo/trail", rr.GeoLineStrings.from_fields(radii=_on_screen(1.4)))
+    tape.log_static("/geo/sight", rr.GeoLineStrings.from_fields(radii=_on_screen(1.0)))
     tape.log_static("/geo/targets", rr.GeoPoints.from_fields(radii=_on_screen(3.0)))
 
 

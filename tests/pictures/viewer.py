@@ -18,9 +18,11 @@ import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
+from matplotlib.image import imread, imsave
 from rerun.experimental import ViewerClient
 
 from missions.recording.optimize import rerun_command
@@ -28,6 +30,7 @@ from missions.recording.tape import TIME_LINE
 
 _START_S, _OPEN_S, _DRAW_S = 20.0, 60.0, 40.0
 _LOOK_EVERY_S = 0.3
+_TITLE_BAR = 38  # pixels of window above the tabs: it says nothing of the recording
 
 
 class Viewer:
@@ -40,6 +43,10 @@ class Viewer:
     def __init__(self, client: ViewerClient) -> None:
         self._client = client
         self.complaints: dict[str, None] = {}
+
+    def hide_menu(self) -> None:
+        """Leave out the menu."""
+        self._client.run_command("ui.toggle_top_panel")
 
     def turn_to(self, *tabs: str) -> None:
         """Bring a tab to the front, and a tab in it, by their names.
@@ -63,7 +70,7 @@ class Viewer:
         while (picture := self._client.take_screenshot()) != before and time.monotonic() < until:
             before = picture
             time.sleep(_LOOK_EVERY_S)
-        Path(path).write_bytes(picture)
+        imsave(path, imread(BytesIO(picture), format="png")[_TITLE_BAR:])
         self._complain()
 
     def _complain(self) -> None:
@@ -85,12 +92,18 @@ class Viewer:
 
 
 @contextmanager
-def viewer(recording: Path | str, *, size: tuple[int, int] = (1600, 900), light: bool = False) -> Iterator[Viewer]:
+def viewer(recording: Path | str, *, size: tuple[int, int] = (1600, 900)) -> Iterator[Viewer]:
     """A viewer that has `recording` open, in a window of `size` that nobody sees."""
     port = _free_port()
     with tempfile.TemporaryDirectory() as home:
         command = [*rerun_command(), "--headless", "--bind", "127.0.0.1", "--port", str(port)]
-        command += ["--window-size", f"{size[0]}x{size[1]}", "--hide-welcome-screen", "--memory-limit", "4GB"]
+        command += [
+            "--window-size",
+            f"{size[0]}x{size[1] + _TITLE_BAR}",
+            "--hide-welcome-screen",
+            "--memory-limit",
+            "4GB",
+        ]
         environment = {**os.environ, "RUST_LOG": "error", "XDG_RUNTIME_DIR": home, "XDG_DATA_HOME": home}
         quiet = subprocess.DEVNULL
         process = subprocess.Popen(command, env=environment, stdout=quiet, stderr=quiet, start_new_session=True)
@@ -98,6 +111,7 @@ def viewer(recording: Path | str, *, size: tuple[int, int] = (1600, 900), light:
             _await_port(port, process)
             shown = Viewer(ViewerClient.connect(f"rerun+http://127.0.0.1:{port}/proxy"))
             shown.open(recording)
+            shown.hide_menu()
             yield shown
         finally:
             os.killpg(process.pid, signal.SIGTERM)

@@ -1,0 +1,77 @@
+"""`make pictures`: flies what is to be seen, and renders it into docs/.
+
+    python -m tests.pictures [NAME...] [--out DIR]
+
+Fails when the viewer has an error to report of anything it shows.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from missions.cli import main as swarm
+from tests.benchmarks.recording import SIZES
+from tests.pictures.viewer import viewer
+
+DOCS = Path(__file__).parents[2] / "docs"
+
+
+def _set(*texts: str) -> tuple[str, ...]:
+    return tuple(part for text in texts for part in ("--set", text))
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """What is flown, and which moment of it is shown in which tab."""
+
+    launch: tuple[str, ...]
+    at_s: float
+    tabs: tuple[str, ...]
+    size: tuple[int, int] = (1280, 720)
+
+
+QUICKSTART = ("quickstart",)
+PICTURES = {
+    "quickstart": Picture(QUICKSTART, 52.0, ("Mission",)),
+    "help": Picture(QUICKSTART, 60.0, ("Mission",)),
+    "knowledge": Picture(QUICKSTART, 60.0, ("Knowledge", "A4")),
+    "telemetry": Picture(QUICKSTART, 120.0, ("Telemetry",)),
+    "faults": Picture(("faults",), 128.0, ("Mission",)),
+    "map": Picture(("wildlife", "--duration", "120"), 100.0, ("Map",)),
+    "sector": Picture(
+        ("quickstart", *_set("agents.sensing.field_of_view=sector", "duration_s=90")), 80.0, ("Mission",)
+    ),
+    "hundred": Picture(("quickstart", *_set(*SIZES["100 + 100"], "duration_s=90")), 100.0, ("Mission",)),
+}
+
+
+def main() -> int:
+    """Render the pictures asked for, or all."""
+    parser = argparse.ArgumentParser(description="Render the pictures in docs/.")
+    parser.add_argument("names", nargs="*", metavar="NAME", help=f"some of {', '.join(PICTURES)}; all unless given")
+    parser.add_argument("--out", type=Path, default=DOCS)
+    options = parser.parse_args()
+    chosen = {name: PICTURES[name] for name in options.names or PICTURES}
+    complaints: dict[str, None] = {}
+    with TemporaryDirectory() as folder:
+        for flown in dict.fromkeys(picture.launch for picture in chosen.values()):
+            recording = Path(folder) / "flown.rrd"
+            if swarm(["launch", *flown, "--record", str(recording)]) != 0:
+                return 1
+            for name, picture in chosen.items():
+                if picture.launch == flown:
+                    with viewer(recording, size=picture.size) as seen:
+                        seen.turn_to(*picture.tabs)
+                        seen.save(options.out / f"{name}.png", at_s=picture.at_s)
+                        complaints |= seen.complaints
+    for complaint in complaints:
+        print(complaint, file=sys.stderr)
+    return 1 if complaints else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
