@@ -33,6 +33,10 @@ _LOOK_EVERY_S = 0.3
 _TITLE_BAR = 38  # pixels of window above the tabs: it says nothing of the recording
 
 
+class NoViewerError(RuntimeError):
+    """No viewer runs on this computer."""
+
+
 class Viewer:
     """A running viewer with one recording open.
 
@@ -134,7 +138,7 @@ def _await_port(port: int, process: subprocess.Popen[bytes]) -> None:
     until = time.monotonic() + _START_S
     while time.monotonic() < until:
         if process.poll() is not None:
-            raise RuntimeError(f"the viewer ended at once, with {process.returncode}: is there a Vulkan driver?")
+            raise NoViewerError(f"the viewer ended at once, with {process.returncode}: is there a Vulkan driver?")
         try:
             socket.create_connection(("127.0.0.1", port), timeout=0.2).close()
             return
