@@ -176,3 +176,19 @@ def test_inside_every_inclusion_and_outside_every_exclusion() -> None:
     assert not both.allows(0.0, -5.0)  # in one of two
     assert not both.allows(0.0, 10.0)  # in the hole
     assert Outline().allows(1e6, 1e6)
+
+
+def test_a_reboot_forgets_the_breaches() -> None:
+    station = fenced(flying(), FENCE_TYPE=2, FENCE_RADIUS=20, FENCE_ACTION=2)
+    assert mode_after(station) == LAND
+    while station.vehicle.truth.armed:
+        station.tick()
+    station.stream(162)
+    station.tick()
+    assert station.last("FENCE_STATUS").breach_count == 1
+    assert station.order(246, 1) == 0
+    station.tick(seconds=3.0)
+    station.stream(162)
+    fenced(station, FENCE_RADIUS=1000)
+    station.tick()
+    assert station.last("FENCE_STATUS").breach_count == 0

@@ -9,8 +9,9 @@ from vehicle_sim.autopilot.ardupilot.modes import MODES, Mode
 from vehicle_sim.autopilot.ardupilot.parameters import ARDUCOPTER_CATALOG, arducopter_values
 from vehicle_sim.autopilot.ardupilot.safety.arming import Reminder, complaints
 from vehicle_sim.autopilot.ardupilot.safety.failsafes import Failsafes
-from vehicle_sim.autopilot.ardupilot.safety.fence import Fence
-from vehicle_sim.autopilot.core import FURTHEST_M, LANDED_AFTER_S, Autopilot
+from vehicle_sim.autopilot.ardupilot.safety.fence import Fence, named
+from vehicle_sim.autopilot.ardupilot.watched import Watched
+from vehicle_sim.autopilot.core import FURTHEST_M, LANDED_AFTER_S
 from vehicle_sim.autopilot.parameters import Parameters
 from vehicle_sim.autopilot.plans.item import Item
 from vehicle_sim.autopilot.plans.rules import ARDUCOPTER_PLANS
@@ -25,11 +26,8 @@ HIGHEST_TAKEOFF_M = 10_000.0
 ARMS_IN_AUTO = 1  # a bit of AUTO_OPTIONS
 
 
-class Copter(Autopilot):
+class Copter(Watched):
     """One ArduCopter."""
-
-    mode: Mode
-    guidance: CopterGuidance
 
     def __init__(
         self,
@@ -62,6 +60,10 @@ class Copter(Autopilot):
     @property
     def has_position(self) -> bool:
         return self.boot.stage.position and self.estimate.has_position and not self.failsafes.ekf.active
+
+    @property
+    def outside(self) -> str:
+        return named(self.fence.beyond_m(self))
 
     # What a ground station asks for. Each returns whether it was done.
 
@@ -143,7 +145,8 @@ class Copter(Autopilot):
             return False
         self.started_at_s = self.now_s
         self.boot.restart()
-        self.failsafes, self._reminder = Failsafes(), Reminder(started_at_s=self.now_s)
+        self.fence, self.failsafes = Fence(self.plans.fences), Failsafes()
+        self._reminder = Reminder(started_at_s=self.now_s)
         self._yaw_aligned = False
         self.mode = Mode.STABILIZE
         self.mission.reset()

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from comms.frames import GeoPoint, Vec3
-from vehicle_sim.autopilot.core import LANDED_AFTER_S, Autopilot
+from vehicle_sim.autopilot.core import LANDED_AFTER_S
 from vehicle_sim.autopilot.parameters import Parameters
 from vehicle_sim.autopilot.plans.item import Item
+from vehicle_sim.autopilot.px4.battery import Level
 from vehicle_sim.autopilot.px4.boot import PX4_BOOT
 from vehicle_sim.autopilot.px4.checks import can_run, complaints
 from vehicle_sim.autopilot.px4.failsafes import Failsafes
@@ -17,6 +18,7 @@ from vehicle_sim.autopilot.px4.navigation.takeoff import Lift
 from vehicle_sim.autopilot.px4.parameters import CATALOG, px4_values
 from vehicle_sim.autopilot.px4.plans import PX4_PLANS
 from vehicle_sim.autopilot.px4.setpoints import Trajectory
+from vehicle_sim.autopilot.px4.watched import Watched
 from vehicle_sim.autopilot.setpoints import Attitude
 from vehicle_sim.autopilot.severity import CRITICAL, INFO
 from vehicle_sim.autopilot.steering import TIME_SLACK_S
@@ -29,15 +31,9 @@ EXTERNAL, LANDING, PREFLIGHT, MISSION_START, FAILSAFE = (
 NEVER_S = -1e9
 
 
-class Commander(Autopilot):
-    """One PX4.
+class Commander(Watched):
+    """One PX4."""
 
-    Attributes:
-        intended: the mode somebody chose; `mode` is another while a failsafe acts.
-        had_sticks: a pilot held the sticks since it was armed.
-    """
-
-    mode: Mode
     guidance: Px4Guidance
 
     def __init__(
@@ -63,6 +59,7 @@ class Commander(Autopilot):
         )
         self.geofence = Geofence(self.plans.fences)
         self.failsafes = Failsafes()
+        self.battery = Level.FINE
         self.mode = self.intended = self._after_flight = Mode.HOLD
         self.fly_by(Px4Guidance(steering=self.steering, mission=self.mission))
         self.parameters.on_change(("MPC_",), self.guidance.retune)
@@ -182,6 +179,7 @@ class Commander(Autopilot):
         self.started_at_s = self.now_s
         self.boot.restart()
         self.failsafes = Failsafes()
+        self.battery = Level.FINE
         self.mission.reset()
         self.mission.complete = False
         self.steering.home_ned_m = self.steering.place_ned_m

@@ -8,15 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from enum import IntEnum
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
+from vehicle_sim.autopilot.px4.battery import BATTERY_LEVELS, Level
 from vehicle_sim.autopilot.px4.checks import can_run
 from vehicle_sim.autopilot.px4.modes import Mode
-from vehicle_sim.autopilot.severity import CRITICAL, EMERGENCY, WARNING
+from vehicle_sim.autopilot.px4.watched import Watched
+from vehicle_sim.autopilot.severity import CRITICAL
 from vehicle_sim.autopilot.steering import TIME_SLACK_S
-
-if TYPE_CHECKING:
-    from vehicle_sim.autopilot.px4.commander import Commander
 
 
 class Action(IntEnum):
@@ -54,21 +53,6 @@ OFFBOARD_ACTIONS = {
 }  # fmt: skip
 
 
-class Level(IntEnum):
-    """BATTERY_STATUS.charge_state less 1: how bad a battery is."""
-
-    FINE = 0
-    LOW = 1
-    CRITICAL = 2
-    EMERGENCY = 3
-
-
-# The gravest first: its threshold, how urgent its text is, and the text.
-BATTERY_LEVELS: dict[Level, tuple[str, int, str]] = {
-    Level.EMERGENCY: ("BAT_EMERGEN_THR", EMERGENCY, "Emergency battery level, land immediately"),
-    Level.CRITICAL: ("BAT_CRIT_THR", CRITICAL, "Critical battery level, land now"),
-    Level.LOW: ("BAT_LOW_THR", WARNING, "Low battery level, return advised"),
-}
 # (COM_LOW_BAT_ACT, level) -> action; everything else warns.
 BATTERY_ACTIONS = {
     (2, Level.CRITICAL): Action.LAND,
@@ -81,14 +65,14 @@ BATTERY_ACTIONS = {
 STICK_EXCEPTIONS = {Mode.MISSION: 1, Mode.HOLD: 2, Mode.TAKEOFF: 2, Mode.LAND: 2, Mode.RTL: 2, Mode.OFFBOARD: 4}
 
 
-def _gcs_lost(pilot: Commander) -> Action:
+def _gcs_lost(pilot: Watched) -> Action:
     """From the parameter NAV_DLL_ACT. A landing just goes on."""
     if pilot.hears_gcs or pilot.intended is Mode.LAND:
         return Action.NONE
     return LINK_ACTIONS.get(int(pilot.parameters["NAV_DLL_ACT"]), Action.NONE)
 
 
-def _sticks_lost(pilot: Commander) -> Action:
+def _sticks_lost(pilot: Watched) -> Action:
     """A pilot who was never there while armed is not missed."""
     excepted = int(pilot.parameters["COM_RCL_EXCEPT"]) & STICK_EXCEPTIONS.get(pilot.intended, 0)
     if pilot.has_sticks or not pilot.had_sticks or excepted:
@@ -96,20 +80,19 @@ def _sticks_lost(pilot: Commander) -> Action:
     return LINK_ACTIONS.get(int(pilot.parameters["NAV_RCL_ACT"]), Action.NONE)
 
 
-def _geofence(pilot: Commander) -> Action:
+def _geofence(pilot: Watched) -> Action:
     if not pilot.geofence.breached:
         return Action.NONE
     return GEOFENCE_ACTIONS.get(int(pilot.parameters["GF_ACTION"]), Action.WARN)
 
 
-def _battery(pilot: Commander) -> Action:
-    level = pilot.failsafes.battery
-    if level is Level.FINE:
+def _battery(pilot: Watched) -> Action:
+    if pilot.battery is Level.FINE:
         return Action.NONE
-    return BATTERY_ACTIONS.get((int(pilot.parameters["COM_LOW_BAT_ACT"]), level), Action.WARN)
+    return BATTERY_ACTIONS.get((int(pilot.parameters["COM_LOW_BAT_ACT"]), pilot.battery), Action.WARN)
 
 
-def _mode(pilot: Commander) -> Action:
+def _mode(pilot: Watched) -> Action:
     """The mode that somebody wants cannot be flown."""
     if can_run(pilot, pilot.intended):
         return Action.NONE
@@ -130,7 +113,7 @@ class Watch(NamedTuple):
         lasts: it stays failed until the mode changes or the vehicle disarms. waits: a person has time to avert it.
     """
 
-    action: Callable[[Commander], Action]
+    action: Callable[[Watched], Action]
     lasts: bool
     waits: bool
 
@@ -148,12 +131,11 @@ class Failsafes:
     """All that watches over one vehicle.
 
     Attributes:
-        action: what is done now. battery: how bad it is; it does not recover before the next power-on.
+        action: what is done now.
     """
 
     def __init__(self) -> None:
         self.action = Action.NONE
-        self.battery = Level.FINE
         self._asked: dict[Watch, Action] = {}
         self._failing: set[Watch] = set()
         self._holds_until_s = 0.0
@@ -177,7 +159,7 @@ class Failsafes:
         self._taken_over = self.active
         self._holds_until_s = 0.0
 
-    def watch(self, pilot: Commander) -> None:
+    def watch(self, pilot: Watched) -> None:
         """Look at everything once, and do the one thing that is to be done."""
         if not pilot.armed:
             self.rest()
@@ -200,16 +182,16 @@ class Failsafes:
         else:
             pilot.fly_mode(ACTION_MODES.get(action, pilot.intended))
 
-    def _watch_battery(self, pilot: Commander) -> None:
+    def _watch_battery(self, pilot: Watched) -> None:
         for level, (threshold, severity, text) in BATTERY_LEVELS.items():
-            if level <= self.battery:
+            if level <= pilot.battery:
                 break
             if pilot.charge_share < pilot.parameters[threshold]:
-                self.battery = level
+                pilot.battery = level
                 pilot.say(severity, text)
                 break
 
-    def _ask(self, pilot: Commander, watch: Watch) -> None:
+    def _ask(self, pilot: Watched, watch: Watch) -> None:
         action = watch.action(pilot)
         if action is Action.NONE:
             self._failing.discard(watch)
@@ -225,7 +207,7 @@ class Failsafes:
         if news and watch.waits and action > Action.WARN and delay_s > 0.1 and not self.active:
             self._holds_until_s = pilot.now_s + delay_s
 
-    def _chosen(self, pilot: Commander) -> Action:
+    def _chosen(self, pilot: Watched) -> Action:
         action = max(self._asked.values(), default=Action.NONE)
         if self._taken_over and action not in STOPS_MOTORS:
             return max(Action.WARN, _mode(pilot))
@@ -234,7 +216,7 @@ class Failsafes:
             return Action.HOLD
         return action
 
-    def _possible(self, pilot: Commander, action: Action) -> Action:
+    def _possible(self, pilot: Watched, action: Action) -> Action:
         """The gravest of what is asked for, or the next graver that can be flown; nothing that is being done anyway."""
         while action in ACTION_MODES and not can_run(pilot, ACTION_MODES[action]):
             action = Action(action + 1)
@@ -243,7 +225,7 @@ class Failsafes:
             return Action.WARN
         return Action.WARN if action is Action.LAND and lands else action
 
-    def _tell(self, pilot: Commander) -> None:
+    def _tell(self, pilot: Watched) -> None:
         left_s = self._holds_until_s - pilot.now_s
         if self.action is Action.HOLD and left_s > 0.0:
             pilot.say(CRITICAL, f"Failsafe activated: entering Hold for {left_s:.0f} seconds")

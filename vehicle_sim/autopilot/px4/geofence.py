@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from vehicle_sim.autopilot.core import Autopilot
 from vehicle_sim.autopilot.outline import Outline, outline
 from vehicle_sim.autopilot.plans.store import Store
-
-if TYPE_CHECKING:
-    from vehicle_sim.autopilot.px4.commander import Commander
 
 
 class Geofence:
@@ -24,10 +20,10 @@ class Geofence:
         self._outline = Outline()
         self.breached = False
 
-    def watch(self, pilot: Commander) -> None:
+    def watch(self, pilot: Autopilot) -> None:
         self.breached = pilot.has_position and self._outside(pilot)
 
-    def _outside(self, pilot: Commander) -> bool:
+    def _outside(self, pilot: Autopilot) -> bool:
         steering, parameters = pilot.steering, pilot.parameters
         if self._version != self._store.version:
             self._version = self._store.version

@@ -82,7 +82,7 @@ def battery_status(pilot: Commander) -> Any:
     charge = pilot.charge
     return dialect.MAVLink_battery_status_message(
         0, 0, 0, UNMEASURED_C, [u16(charge.voltage_v * 1000.0)] + [65535] * 9, i16(charge.current_a * 100.0),
-        i32(charge.consumed_mah), -1, round(100.0 * pilot.charge_share), 0, 1 + int(pilot.failsafes.battery),
+        i32(charge.consumed_mah), -1, round(100.0 * pilot.charge_share), 0, 1 + int(pilot.battery),
     )  # fmt: skip
 
 

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import TYPE_CHECKING
 
 from vehicle_sim.autopilot.ardupilot.modes import Mode
+from vehicle_sim.autopilot.ardupilot.watched import Watched
 from vehicle_sim.autopilot.navigation.landing import Land
 from vehicle_sim.autopilot.severity import WARNING
-
-if TYPE_CHECKING:
-    from vehicle_sim.autopilot.ardupilot.copter import Copter
 
 LANDING_GOES_ON = 8  # FS_OPTIONS
 
@@ -39,27 +36,27 @@ ACTION_MODES: dict[Action, tuple[Mode, ...]] = {
 }
 
 
-def act(pilot: Copter, action: Action) -> None:
+def act(pilot: Watched, action: Action) -> None:
     """Fly what `action` asks for: the first of its modes that can be entered."""
     if action is Action.TERMINATE:
         pilot.disarm(forced=True)
     enter_first(pilot, ACTION_MODES[action])
 
 
-def enter_first(pilot: Copter, modes: tuple[Mode, ...]) -> None:
+def enter_first(pilot: Watched, modes: tuple[Mode, ...]) -> None:
     """Change to the first of `modes` that can be entered."""
     for mode in modes:
         if pilot.set_mode(mode):
             return
 
 
-def pause_landing(pilot: Copter) -> None:
+def pause_landing(pilot: Watched) -> None:
     """If it lands now: not at once, as every landing that a failsafe began (recorded; a fence's does not wait)."""
     if isinstance(pilot.guidance.navigator, Land):
         pilot.guidance.navigator.linger()
 
 
-def fail(pilot: Copter, what: str, action: Action) -> None:
+def fail(pilot: Watched, what: str, action: Action) -> None:
     """Say that `what` failed and do something about it: on the ground, disarm; in a landing, perhaps just go on."""
     landing = pilot.guidance.landing and int(pilot.parameters["FS_OPTIONS"]) & LANDING_GOES_ON
     if not pilot.armed:

@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING
 
 from vehicle_sim.autopilot.ardupilot.boot import NEED_POSITION
 from vehicle_sim.autopilot.ardupilot.modes import MODES
 from vehicle_sim.autopilot.ardupilot.safety.battery import Level, shortage
-from vehicle_sim.autopilot.ardupilot.safety.fence import named
+from vehicle_sim.autopilot.ardupilot.watched import Watched
 from vehicle_sim.autopilot.steering import TIME_SLACK_S
-
-if TYPE_CHECKING:
-    from vehicle_sim.autopilot.ardupilot.copter import Copter
 
 PREARM_PERIOD_S = 30.0  # between two rounds of PreArm texts (recorded)
 
@@ -23,17 +19,17 @@ BOOT_BITS = {"Accels inconsistent": INERTIA, "Gyros inconsistent": INERTIA, DEAD
 LEAST_LEAN_CDEG, LARGEST_LEAN_CDEG = 100, 8000  # what an airframe here can have (ArduCopter: from 1000)
 
 Complaint = tuple[int, str]  # the bit that switches it off, and its text
-Check = Callable[["Copter"], Iterator[Complaint]]
+Check = Callable[[Watched], Iterator[Complaint]]
 
 
-def _boot(pilot: Copter) -> Iterator[Complaint]:
+def _boot(pilot: Watched) -> Iterator[Complaint]:
     """What is not ready yet."""
     for text in pilot.boot.stage.complaints:
         if text != NEED_POSITION:
             yield BOOT_BITS.get(text, MANDATORY), text
 
 
-def _position(pilot: Copter) -> Iterator[Complaint]:
+def _position(pilot: Watched) -> Iterator[Complaint]:
     """Only a mode that needs a position misses one."""
     if not pilot.boot.stage.origin or not MODES[pilot.mode].needs_position:
         return
@@ -45,12 +41,12 @@ def _position(pilot: Copter) -> Iterator[Complaint]:
         yield GPS, "GPS 1: Bad fix"
 
 
-def _compass(pilot: Copter) -> Iterator[Complaint]:
+def _compass(pilot: Watched) -> Iterator[Complaint]:
     if pilot.boot.stage.position and pilot.sensors.faults.compass_dead:
         yield COMPASS, DEAD_COMPASS
 
 
-def _battery(pilot: Copter) -> Iterator[Complaint]:
+def _battery(pilot: Watched) -> Iterator[Complaint]:
     """The first thing that is wrong with it."""
     parameters, charge = pilot.parameters, pilot.charge
     left_mah = parameters["BATT_CAPACITY"] - charge.consumed_mah
@@ -72,21 +68,20 @@ def _battery(pilot: Copter) -> Iterator[Complaint]:
             return
 
 
-def _parameters(pilot: Copter) -> Iterator[Complaint]:
+def _parameters(pilot: Watched) -> Iterator[Complaint]:
     if not LEAST_LEAN_CDEG <= pilot.parameters["ANGLE_MAX"] <= LARGEST_LEAN_CDEG:
         yield PARAMETERS, "Check ANGLE_MAX"
 
 
-def _fence(pilot: Copter) -> Iterator[Complaint]:
-    beyond = pilot.fence.beyond_m(pilot)
-    if beyond:
-        yield MANDATORY, f"vehicle outside {named(beyond)} fence"
+def _fence(pilot: Watched) -> Iterator[Complaint]:
+    if pilot.outside:
+        yield MANDATORY, f"vehicle outside {pilot.outside} fence"
 
 
 CHECKS: tuple[Check, ...] = (_boot, _position, _compass, _battery, _parameters, _fence)
 
 
-def complaints(pilot: Copter) -> list[str]:
+def complaints(pilot: Watched) -> list[str]:
     """Why it would not arm, in its own words; nothing: it would."""
     asked = int(pilot.parameters["ARMING_CHECK"])
     return [text for check in CHECKS for bit, text in check(pilot) if bit == MANDATORY or asked & ALL or asked & bit]
@@ -101,7 +96,7 @@ class Reminder:
     def restart(self, now_s: float) -> None:
         self._next_s = now_s + PREARM_PERIOD_S
 
-    def due(self, pilot: Copter) -> list[str]:
+    def due(self, pilot: Watched) -> list[str]:
         """The texts to say now."""
         if pilot.armed or pilot.now_s < self._next_s - TIME_SLACK_S:
             return []

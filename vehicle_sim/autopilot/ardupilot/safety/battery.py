@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import TYPE_CHECKING
 
 from vehicle_sim.autopilot.ardupilot.safety.actions import Action, action_of, fail
+from vehicle_sim.autopilot.ardupilot.watched import Watched
 from vehicle_sim.autopilot.severity import WARNING
-
-if TYPE_CHECKING:
-    from vehicle_sim.autopilot.ardupilot.copter import Copter
 
 # What a battery may ask for, the most urgent first: a later failsafe acts only if it is not less urgent.
 BATTERY_PRIORITIES = (
@@ -40,7 +37,7 @@ class BatteryFailsafe:
         self._urgency = len(BATTERY_PRIORITIES)
         self._low_since_s: dict[Level, float] = {}
 
-    def watch(self, pilot: Copter) -> None:
+    def watch(self, pilot: Watched) -> None:
         """Act when the battery becomes worse than it was."""
         if not pilot.armed:
             return
@@ -58,7 +55,7 @@ class BatteryFailsafe:
             self._urgency = urgency
             fail(pilot, "Battery", action)
 
-    def _level(self, pilot: Copter) -> Level:
+    def _level(self, pilot: Watched) -> Level:
         timer_s = pilot.parameters["BATT_LOW_TIMER"]
         for level in (Level.CRITICAL, Level.LOW):
             low_voltage, low_charge = shortage(pilot, level)
@@ -70,7 +67,7 @@ class BatteryFailsafe:
         return Level.FINE
 
 
-def shortage(pilot: Copter, level: Level) -> tuple[bool, bool]:
+def shortage(pilot: Watched, level: Level) -> tuple[bool, bool]:
     """Whether the voltage and the charge are below those of `level` now."""
     _, voltage_name, charge_name, _ = BATTERY_LEVELS[level]
     lowest_v, least_mah = pilot.parameters[voltage_name], pilot.parameters[charge_name]

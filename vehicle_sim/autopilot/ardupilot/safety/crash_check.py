@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from math import acos, cos, degrees
-from typing import TYPE_CHECKING
 
+from vehicle_sim.autopilot.ardupilot.watched import Watched
 from vehicle_sim.autopilot.severity import EMERGENCY
 from vehicle_sim.autopilot.steering import TIME_SLACK_S
-
-if TYPE_CHECKING:
-    from vehicle_sim.autopilot.ardupilot.copter import Copter
 
 CRASHED_AFTER_S = 2.0
 LEAN_DEG = 30.0  # further than this from what was asked for
@@ -22,7 +19,7 @@ class CrashCheck:
     def __init__(self) -> None:
         self._since_s: float | None = None
 
-    def watch(self, pilot: Copter) -> None:
+    def watch(self, pilot: Watched) -> None:
         frame = pilot.airframe
         if not frame.tumbling:
             self._since_s = None

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from vehicle_sim.autopilot.ardupilot.modes import MODES, Mode
 from vehicle_sim.autopilot.ardupilot.safety.actions import enter_first, pause_landing
+from vehicle_sim.autopilot.ardupilot.watched import Watched
 from vehicle_sim.autopilot.severity import CRITICAL, WARNING
 from vehicle_sim.autopilot.steering import TIME_SLACK_S
-
-if TYPE_CHECKING:
-    from vehicle_sim.autopilot.ardupilot.copter import Copter
 
 PATIENCE_S = 1.0  # bad for this long: failsafe; good for this long: over (ten looks at 10 Hz)
 LANE_AFTER_S = 0.9  # just before, the other lane of the EKF is tried
@@ -36,7 +32,7 @@ class EkfCheck:
         self._acted = False
         self._glitching = False
 
-    def watch(self, pilot: Copter) -> None:
+    def watch(self, pilot: Watched) -> None:
         span_s, self._looked_at_s = pilot.now_s - self._looked_at_s, pilot.now_s
         self._watch_lane(pilot)
         if not pilot.boot.stage.position or (pilot.estimate.exact and not self._bad_s and not self._glitching):
@@ -52,7 +48,7 @@ class EkfCheck:
         elif self.active and self._bad_s <= TIME_SLACK_S:
             self._recover(pilot)
 
-    def _worsen(self, pilot: Copter) -> None:
+    def _worsen(self, pilot: Watched) -> None:
         if self._bad_s >= LANE_AFTER_S - TIME_SLACK_S and self.lane == 0 and not pilot.estimate.has_position:
             self.lane = 1
             pilot.say(CRITICAL, "EKF3 lane switch 1")
@@ -70,26 +66,26 @@ class EkfCheck:
             self._acted = True
             pilot.say(CRITICAL, f"EKF Failsafe: changed to {pilot.mode.name} Mode")
 
-    def _recover(self, pilot: Copter) -> None:
+    def _recover(self, pilot: Watched) -> None:
         self.active = False
         pilot.announce = True
         if self._acted:
             self._acted = False
             pilot.say(CRITICAL, "EKF Failsafe Cleared")
 
-    def _watch_lane(self, pilot: Copter) -> None:
+    def _watch_lane(self, pilot: Watched) -> None:
         """On the ground the first lane leads again."""
         if self.lane != 0 and not pilot.armed and not self.active:
             self.lane = 0
             pilot.say(WARNING, "EKF primary changed:0")
 
-    def _watch_glitch(self, pilot: Copter) -> None:
+    def _watch_glitch(self, pilot: Watched) -> None:
         if self._glitching is not pilot.estimate.glitching:
             self._glitching = pilot.estimate.glitching
             pilot.say(CRITICAL, "GPS Glitch or Compass error" if self._glitching else "Glitch cleared")
 
 
-def _over(pilot: Copter, threshold: float) -> bool:
+def _over(pilot: Watched, threshold: float) -> bool:
     """ArduCopter's rule: two of compass, velocity and position are bad, or the velocity is twice as bad."""
     velocity, position, _, compass = pilot.estimate.variances
     bad = (compass >= threshold) + (2 if velocity >= 2.0 * threshold else velocity >= threshold)

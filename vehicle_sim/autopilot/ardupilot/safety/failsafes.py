@@ -6,16 +6,12 @@ Each watch looks once a tick, says what ArduCopter says, and leaves what to fly 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from vehicle_sim.autopilot.ardupilot.safety.actions import Action, fail
 from vehicle_sim.autopilot.ardupilot.safety.battery import BatteryFailsafe, Level
 from vehicle_sim.autopilot.ardupilot.safety.crash_check import CrashCheck
 from vehicle_sim.autopilot.ardupilot.safety.ekf_check import EkfCheck
+from vehicle_sim.autopilot.ardupilot.watched import Watched
 from vehicle_sim.autopilot.severity import WARNING
-
-if TYPE_CHECKING:
-    from vehicle_sim.autopilot.ardupilot.copter import Copter
 
 # FS_GCS_ENABLE -> what to do; values that are not here return, as ArduCopter does.
 GCS_ACTIONS: dict[int, Action] = {
@@ -38,7 +34,7 @@ class GcsFailsafe:
     def hear(self, now_s: float) -> None:
         self._heard_at_s = now_s
 
-    def watch(self, pilot: Copter) -> None:
+    def watch(self, pilot: Watched) -> None:
         """Act FS_GCS_TIMEOUT after its last heartbeat; say so when it is back."""
         enabled = int(pilot.parameters["FS_GCS_ENABLE"])
         if not enabled or self._heard_at_s is None:
@@ -68,7 +64,7 @@ class Failsafes:
         """Whether HEARTBEAT.system_status is CRITICAL."""
         return self.gcs.active or self.ekf.active or self.battery.level is not Level.FINE
 
-    def watch(self, pilot: Copter) -> None:
+    def watch(self, pilot: Watched) -> None:
         """Look at everything once."""
         self.gcs.watch(pilot)
         self.battery.watch(pilot)

@@ -5,17 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 from enum import IntFlag
 from math import hypot
-from typing import TYPE_CHECKING
 
 from comms.frames import Vec3
 from vehicle_sim.autopilot.ardupilot.modes import Mode
 from vehicle_sim.autopilot.ardupilot.safety.actions import Action, act
+from vehicle_sim.autopilot.ardupilot.watched import Watched
 from vehicle_sim.autopilot.outline import Outline, outline
 from vehicle_sim.autopilot.plans.store import Store
 from vehicle_sim.autopilot.severity import NOTICE
-
-if TYPE_CHECKING:
-    from vehicle_sim.autopilot.ardupilot.copter import Copter
 
 NO_DEPTH_M = 0.01  # how far a place is inside or outside a polygon: nobody measures
 GIVE_UP_M = 100.0  # further out than this it lands where it is
@@ -64,16 +61,16 @@ class Fence:
         self.breaches = 0
         self.breached_at_s = 0.0
 
-    def allows(self, pilot: Copter, place_ned_m: Vec3) -> bool:
+    def allows(self, pilot: Watched, place_ned_m: Vec3) -> bool:
         """Whether a place is on the right side of all borders that are switched on."""
         return all(out_m <= 0.0 for out_m in self._out_m(pilot, place_ned_m).values())
 
-    def beyond_m(self, pilot: Copter) -> dict[Border, float]:
+    def beyond_m(self, pilot: Watched) -> dict[Border, float]:
         """How far it is beyond each border that is switched on; only those that it is beyond."""
         out_m = self._out_m(pilot, pilot.steering.place_ned_m) if pilot.has_position else {}
         return {border: beyond_m for border, beyond_m in out_m.items() if beyond_m >= 0.0}
 
-    def _out_m(self, pilot: Copter, place_ned_m: Vec3) -> dict[Border, float]:
+    def _out_m(self, pilot: Watched, place_ned_m: Vec3) -> dict[Border, float]:
         """How far a place is beyond each border that is switched on; negative: inside. A polygon has no depth."""
         parameters = pilot.parameters
         if not parameters["FENCE_ENABLE"]:
@@ -93,7 +90,7 @@ class Fence:
         switched_on = int(parameters["FENCE_TYPE"])
         return {border: beyond_m for border, beyond_m in out_m.items() if border & switched_on}
 
-    def watch(self, pilot: Copter) -> None:
+    def watch(self, pilot: Watched) -> None:
         """Look once: say and do what a new crossing asks for, and say when it is over."""
         if pilot.mode is not self._mode:
             self._mode = pilot.mode
@@ -113,7 +110,7 @@ class Fence:
         elif before and not self.breached and pilot.flying:
             pilot.say(NOTICE, "Fence breach cleared")
 
-    def _cross(self, pilot: Copter, new: dict[Border, float]) -> None:
+    def _cross(self, pilot: Watched, new: dict[Border, float]) -> None:
         self.last, self.breached_at_s = max(new), pilot.now_s
         self.breaches += 1
         self._again_m |= {border: out_m + AGAIN_M for border, out_m in new.items()}
