@@ -106,6 +106,8 @@ def _played(path: Path, table: _Table, *, torn: bool) -> Playback:
         versions={name: versions[name] for name in ("python", *PACKAGES) if name in versions},
     )
     observations = _observations(table, facts)
+    if not observations:
+        raise LookupError("a single tick")
     ticks = [seen.tick for seen in observations]
     return Playback(
         path=path,

@@ -14,6 +14,7 @@ from missions.colors import ACTIVITY_COLORS, LEVEL_COLORS, hex_color
 from missions.review.losses import Loss
 from missions.review.pictures import as_bytes, from_above, over_time
 from missions.review.reading import Review
+from missions.review.summary import injected_rows
 from missions.review.timeline import Line, call_words, loss_words
 from missions.review.words import agent, clock, percent
 
@@ -45,6 +46,7 @@ def page_of(review: Review) -> str:
                 for fault in report["faults"]
             ),
         ),
+        injected=_table(("at", "what", "noticed", "seen before", "during", "after"), injected_rows(review)),
         timeline="".join(_line(line) for line in review.lines if not line.routine),
         mission=escape(review.playback.mission_yaml),
         versions=escape(", ".join(f"{name} {version}" for name, version in report["versions"].items())),

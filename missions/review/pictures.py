@@ -67,6 +67,7 @@ def over_time(review: Review, *, titled: bool = True) -> Figure:
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(_WIDTH_IN, sum(heights) + 0.9), layout="constrained")
         axes = figure.subplots(3, 1, sharex=True, height_ratios=heights)
+        _faults(axes[0], review)
         _coverage(axes[0], review)
         _lanes(axes[1], review)
         _distances(axes[2], review, seen)
@@ -136,6 +137,16 @@ def _number(share: float | None) -> float:
     return np.nan if share is None else share
 
 
+def _faults(axes: Axes, review: Review) -> None:
+    """A gray stretch for each fault on purpose, with its name."""
+    start_s, flown_s = review.began_s or 0.0, review.report["duration_s"]
+    for fault in review.report["injected"]:
+        if fault["at_s"] < flown_s:
+            until_s = min(flown_s, fault["until_s"] or fault["at_s"])
+            axes.axvspan(start_s + fault["at_s"], start_s + until_s, color=DIM, alpha=0.22, linewidth=0.8)
+            axes.text(start_s + fault["at_s"], 0.1, f" {fault['what']}", size=8, color=INK, clip_on=True)
+
+
 def _coverage(axes: Axes, review: Review) -> None:
     flown = [seen for seen in review.playback.observations if seen.mission_tick is not None]
     times = [seen.time_s for seen in flown]
@@ -150,7 +161,7 @@ def _coverage(axes: Axes, review: Review) -> None:
         axes.axvline(loss.time_s, ymax=0.06, color=_BAD, linewidth=1.6, label=None if number else "a target is lost")
     percent_axis(axes)
     axes.set_title("Coverage")
-    axes.legend(loc="lower right", ncols=4, fontsize=8)
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=4, fontsize=8)
 
 
 def _lanes(axes: Axes, review: Review) -> None:

@@ -154,17 +154,23 @@ def _worst(review: Review) -> Sequence[Loss]:
 
 
 def _injected(review: Review) -> Table:
-    """The mission's own faults: what was seen before, meanwhile and afterwards. Their times count from MISSION."""
+    """The mission's own faults: what was seen before, meanwhile and afterwards."""
     table = Table(title="Faults on purpose", title_justify="left", title_style="bold", box=None, pad_edge=False)
     for name in ("at", "what", "noticed", "seen before", "during", "after"):
         table.add_column(name, justify="left" if name in ("at", "what", "noticed") else "right")
+    for row in injected_rows(review):
+        table.add_row(*row)
+    return table
+
+
+def injected_rows(review: Review) -> Iterable[tuple[str, ...]]:
+    """Of each fault on purpose: at, what, noticed; and what was seen before, during, and after."""
     for fault in review.report["injected"]:
         after_s = fault["noticed_after_s"]
-        noticed = "never" if after_s is None else f"after {after_s:.1f} s by {agent(fault['noticed_by'])}"
+        by = "the mission" if fault["noticed_by"] is None else agent(fault["noticed_by"])
+        noticed = "never" if after_s is None else f"after {after_s:.1f} s by {by}"
         shares = [percent(fault["coverage"][when]) for when in ("before", "during", "after")]
-        at = clock(fault["at_s"] + (review.began_s or 0.0))
-        table.add_row(at, f"{fault['what']}, {fault['whom']}", noticed, *shares)
-    return table
+        yield clock(fault["at_s"] + (review.began_s or 0.0)), f"{fault['what']}, {fault['whom']}", noticed, *shares
 
 
 def _faults(review: Review) -> Table:
