@@ -15,6 +15,7 @@ from tempfile import TemporaryDirectory
 
 from missions.cli import main as swarm
 from tests.benchmarks.recording import SIZES
+from tests.pictures import paper
 from tests.pictures.viewer import viewer
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -51,11 +52,16 @@ PICTURES = {
 
 def main() -> int:
     """Render the pictures asked for, or all."""
+    names = (*PICTURES, *paper.NAMES)
     parser = argparse.ArgumentParser(description="Render the pictures in docs/.")
-    parser.add_argument("names", nargs="*", metavar="NAME", help=f"some of {', '.join(PICTURES)}; all unless given")
+    parser.add_argument("names", nargs="*", metavar="NAME", help=f"some of {', '.join(names)}; all unless given")
     parser.add_argument("--out", type=Path, default=DOCS)
     options = parser.parse_args()
-    chosen = {name: PICTURES[name] for name in options.names or PICTURES}
+    wanted = options.names or names
+    chosen = {name: PICTURES[name] for name in wanted if name in PICTURES}
+    for name in wanted:
+        if name in paper.NAMES:
+            paper.draw(name, options.out)
     complaints: dict[str, None] = {}
     with TemporaryDirectory() as folder:
         for flown in dict.fromkeys(picture.launch for picture in chosen.values()):
