@@ -24,7 +24,7 @@ from tests.docs.tutorial_recording import RECORDING
 NAMES = ("reviewing", "report", "panel")
 _BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 _PAGE_SIZE = "1180,1560"
-_PANEL_AT_S = 34.0
+_PANEL_AT_S = 62.0
 
 
 def draw(name: str, out: Path) -> None:
