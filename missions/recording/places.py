@@ -38,6 +38,8 @@ class Places:
     def rows(self, block: Block) -> Iterator[Rows]:
         """Places of agents and targets, nodes and edges of the radio."""
         block = block.every(_STEP_S)
+        if not len(block):
+            return
         each = [self._scene.n_agents] * len(block)
         places = self._geo(block.positions_m)
         agents = rr.GeoPoints.columns(positions=places, colors=block.colors.ravel())
@@ -66,9 +68,9 @@ class Places:
 
     def _trail(self, block: Block, places: npt.NDArray[np.float64]) -> rr.ComponentColumnList:
         """From where each agent was a second ago to where it is: the view shows the latest of these pieces."""
-        ends = places.reshape(len(block), -1, 2)
-        starts = np.concatenate(([ends[0] if self._before is None else self._before], ends[:-1])) if len(ends) else ends
-        self._before = ends[-1] if len(ends) else self._before
+        ends = places.reshape(len(block), self._scene.n_agents, 2)
+        starts = np.concatenate(([ends[0] if self._before is None else self._before], ends[:-1]))
+        self._before = ends[-1]
         pieces = np.stack((starts, ends), axis=2).reshape(-1, 2, 2)
         return rr.GeoLineStrings.columns(line_strings=list(pieces), colors=faded(block.colors.ravel(), _TRAIL_ALPHA))
 
