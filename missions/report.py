@@ -190,7 +190,7 @@ def _lines(report: Report) -> Mapping[str, str]:
         lines["recording"] = report["recording"]
     for fault in report["faults"][:10]:
         who = "mission" if fault["agent"] is None else f"agent {fault['agent']}"
-        lines[f"fault {fault['time_s']:.1f} s"] = f"{who}: {fault['what']}"
+        lines[f"fault {fault['time_s']:.1f} s, {who}"] = fault["what"]
     return lines | _injected(report["injected"])
 
 

@@ -83,6 +83,7 @@ class Schedule:
         self.spells = spells_of(mission.faults, mission.tick_s)
         edges = {edge for spell in self.spells for edge in (spell.first, spell.end) if edge is not None}
         self._edges = sorted(edges)
+        self._reboots = {(uid, s.first) for s in self.spells if isinstance(s.fault, Reboot) for uid in s.fault.agents}
         self._ills = [WELL, *(self._all_at(edge, mission) for edge in self._edges)]
 
     def at(self, tick: int | None) -> Ills:
@@ -97,8 +98,7 @@ class Schedule:
 
     def reboots(self, uid: int, tick: int | None) -> bool:
         """Whether the autopilot of agent `uid` loses its power at this tick."""
-        begun = (spell.fault for spell in self.spells if spell.first == tick)
-        return any(isinstance(fault, Reboot) and uid in fault.agents for fault in begun)
+        return (uid, tick) in self._reboots
 
     def comes_back(self, uid: int, tick: int) -> bool:
         """Whether a computer that is out, or stands still, at this tick ever goes on."""

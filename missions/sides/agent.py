@@ -91,7 +91,11 @@ class AgentSide:
         return output
 
     def _abandoned(self, cue: Cue) -> bool:
-        return cue.fault_tick is not None and not self._faults.comes_back(self.uid, cue.fault_tick)
+        """Whether nobody will ever wait for it again."""
+        tick = cue.fault_tick
+        if tick is None or not self._faults.at(tick).stopped(self.uid):
+            return False
+        return not self._faults.comes_back(self.uid, tick)
 
     def _done(self, tick: int, status: AgentStatus, *, spoke: bool = False, abandoned: bool = False) -> Done:
         truth, pilot = self.vehicle.truth, self.agent.pilot
