@@ -10,16 +10,13 @@ differences, links and batteries as of the last full second. What an agent estim
 
 from __future__ import annotations
 
-from bisect import bisect_right
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import atan2, nan
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
-import numpy.typing as npt
-import pyarrow as pa
 from rerun.chunk import RrdReader
 
 from comms.status import Activity, AgentStatus, Event, HelpCallStatus, Level
@@ -27,10 +24,10 @@ from missions.observation import AgentTruth, Observation, Phase, TargetTruth, To
 from missions.problems import InputError
 from missions.recording import ledger
 from missions.recording.scene import agent_names
+from missions.recording.table import Table, held
 from missions.recording.whole import whole
 from missions.report import PACKAGES, Facts
 
-_ROW_ID = "rerun.controls.RowId"
 _LEVELS = {"INFO": Level.INFO, "WARN": Level.WARNING, "ERROR": Level.ERROR}
 # The entities that are read.
 READ = (
@@ -47,8 +44,6 @@ READ = (
     "/knowledge/**",
 )
 _NOT_OURS = "a recording that swarm launch --record wrote"
-
-T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,7 +74,7 @@ def play_back(path: Path) -> Playback:
     """
     with whole(path) as (readable, torn):
         try:
-            table = _Table(RrdReader(readable))
+            table = Table(RrdReader(readable), READ)
         except (RuntimeError, ValueError) as error:
             raise InputError(f"{path}: got no recording ({_first_line(error)}); allowed: {_NOT_OURS}") from error
     try:
@@ -92,7 +87,7 @@ def _first_line(error: Exception) -> str:
     return (str(error).splitlines() or [""])[0]
 
 
-def _played(path: Path, table: _Table, *, torn: bool) -> Playback:
+def _played(path: Path, table: Table, *, torn: bool) -> Playback:
     mission, versions = table.statics("/__properties/mission"), table.statics("/__properties/versions")
     floor = mission.get("coverage_floor")
     facts = Facts(
@@ -120,7 +115,7 @@ def _played(path: Path, table: _Table, *, torn: bool) -> Playback:
     )
 
 
-def _observations(table: _Table, facts: Facts) -> list[Observation]:
+def _observations(table: Table, facts: Facts) -> list[Observation]:
     # The ledger is written last: whatever has its totals is whole.
     ticks, totals = table.rows(ledger.TOTALS, "total")
     late = dict(zip(*table.rows("/telemetry/tick_late", "Scalars:scalars"), strict=True))
@@ -160,7 +155,7 @@ def _observations(table: _Table, facts: Facts) -> list[Observation]:
     return observations
 
 
-def _statuses(table: _Table, ticks: Sequence[int], facts: Facts) -> list[tuple[AgentStatus, ...]]:
+def _statuses(table: Table, ticks: Sequence[int], facts: Facts) -> list[tuple[AgentStatus, ...]]:
     n_agents = facts.agents
     names = agent_names(n_agents)
     helping = table.held(ledger.DUTIES, "helping", ticks, [ledger.NOBODY] * n_agents)
@@ -189,7 +184,7 @@ def _statuses(table: _Table, ticks: Sequence[int], facts: Facts) -> list[tuple[A
 
 
 def _per_agent(
-    table: _Table, path: str, names: Sequence[str], ticks: Sequence[int], n_agents: int
+    table: Table, path: str, names: Sequence[str], ticks: Sequence[int], n_agents: int
 ) -> list[Sequence[Sequence[tuple[Any, ...]]]]:
     """For every tick and agent, the entries of `path` that are that agent's."""
     at, agents = table.rows(path, "agent")
@@ -200,10 +195,10 @@ def _per_agent(
         for uid, *entry in zip(uids, *(column[row] for column in columns), strict=True):
             own[uid].append(tuple(entry))
         rows.append(own)
-    return _held(at, rows, ticks, [()] * n_agents)
+    return held(at, rows, ticks, [()] * n_agents)
 
 
-def _truths(table: _Table, ticks: Sequence[int], facts: Facts) -> list[tuple[AgentTruth, ...]]:
+def _truths(table: Table, ticks: Sequence[int], facts: Facts) -> list[tuple[AgentTruth, ...]]:
     places = table.places("/world/agents/body", "Points3D:positions", ticks, facts.agents)
     arrows = table.places("/world/agents/heading", "Arrows3D:vectors", ticks, facts.agents)
     moved_s = np.diff(ticks, prepend=ticks[:1])[:, None, None] * facts.tick_s
@@ -218,7 +213,7 @@ def _truths(table: _Table, ticks: Sequence[int], facts: Facts) -> list[tuple[Age
     ]
 
 
-def _targets(table: _Table, ticks: Sequence[int], n_targets: int) -> list[tuple[TargetTruth, ...]]:
+def _targets(table: Table, ticks: Sequence[int], n_targets: int) -> list[tuple[TargetTruth, ...]]:
     present = table.held(ledger.TARGETS, "present", ticks, [0] * n_targets)
     seen = table.held(ledger.TARGETS, "seen", ticks, [0] * n_targets)
     places = table.held("/world/targets/body", "Points3D:positions", ticks, [])
@@ -240,17 +235,17 @@ def _target(place_m: Sequence[float], *, seen: bool) -> TargetTruth:
     return TargetTruth(x, y, present=True, seen=seen)
 
 
-def _links(table: _Table, ticks: Sequence[int], n_agents: int) -> list[tuple[tuple[int, int], ...]]:
+def _links(table: Table, ticks: Sequence[int], n_agents: int) -> list[tuple[tuple[int, int], ...]]:
     uids = {name: uid for uid, name in enumerate(agent_names(n_agents))}
     at, edges = table.rows("/radio/graph", "GraphEdges:edges")
     links = [
         tuple((uids[edge["first"]], uids[edge["second"]]) for edge in row if {*edge.values()} <= uids.keys())
         for row in edges
     ]
-    return _held(at, links, ticks, ())
+    return held(at, links, ticks, ())
 
 
-def _said(table: _Table, speaker: str) -> dict[int, tuple[Event, ...]]:
+def _said(table: Table, speaker: str) -> dict[int, tuple[Event, ...]]:
     """What a speaker said, by tick."""
     path, said = f"/log/{speaker}", dict[int, tuple[Event, ...]]()
     at, texts = table.rows(path, "TextLog:text")
@@ -261,56 +256,6 @@ def _said(table: _Table, speaker: str) -> dict[int, tuple[Event, ...]]:
     return said
 
 
-def _pages(table: _Table, speaker: str) -> list[tuple[int, str]]:
+def _pages(table: Table, speaker: str) -> list[tuple[int, str]]:
     at, texts = table.rows(f"/knowledge/{speaker}", "TextDocument:text")
     return [(tick, text) for tick, (text,) in zip(at, texts, strict=True)]
-
-
-def _held(at: Sequence[int], rows: Sequence[T], ticks: Iterable[int], before: T) -> list[T]:
-    """For every tick the latest of `rows`, which were recorded `at` ticks in rising order."""
-    latest = (bisect_right(at, tick) for tick in ticks)
-    return [rows[count - 1] if count else before for count in latest]
-
-
-class _Table:
-    """The rows of a recording by entity and component, in the order of ticks."""
-
-    def __init__(self, reader: RrdReader) -> None:
-        self._batches: dict[str, list[pa.RecordBatch]] = {}
-        for chunk in reader.stream().filter(content=list(READ)).to_chunks():
-            self._batches.setdefault(str(chunk.entity_path), []).append(pa.record_batch(chunk.to_record_batch()))
-
-    def statics(self, path: str) -> Mapping[str, Any]:
-        """The single values of an entity that hold at all times."""
-        found = {}
-        for batch in self._batches.get(path, ()):
-            for name in batch.schema.names:
-                if name != _ROW_ID and (values := batch.column(name)[0].as_py()):
-                    found[name] = values[0]
-        return found
-
-    def rows(self, path: str, component: str) -> tuple[list[int], list[list[Any]]]:
-        """Ticks, and the list that was recorded at each of them; two empty lists when there is nothing."""
-        columns = list(self._columns(path, component))
-        ticks = [tick for at, _ in columns for tick in at]
-        lists = [values for _, column in columns for values in column.to_pylist()]
-        return ticks, lists
-
-    def held(self, path: str, component: str, ticks: Sequence[int], before: list[Any]) -> list[list[Any]]:
-        """The latest list at each of `ticks`."""
-        return _held(*self.rows(path, component), ticks, before)
-
-    def places(self, path: str, component: str, ticks: Sequence[int], count: int) -> npt.NDArray[np.float64]:
-        """(K, count, 3): the latest places at each of `ticks`."""
-        at, rows = self.rows(path, component)
-        latest = _held(at, rows, ticks, [[0.0, 0.0, 0.0]] * count)
-        return np.array(latest, dtype=np.float64).reshape(len(ticks), count, 3)
-
-    def _columns(self, path: str, component: str) -> Iterable[tuple[list[int], pa.Array]]:
-        batches = [batch for batch in self._batches.get(path, ()) if {component, "tick"} <= {*batch.schema.names}]
-        if not batches:
-            return
-        table = pa.Table.from_batches([batch.select(["tick", _ROW_ID, component]) for batch in batches])
-        table = table.sort_by([("tick", "ascending"), (_ROW_ID, "ascending")])
-        table = table.filter(pa.compute.is_valid(table.column(component)))
-        yield table.column("tick").to_pylist(), table.column(component)

@@ -33,7 +33,7 @@ def review(options: ReviewOptions) -> int:
         InputError: a recording cannot be read, a question makes no sense, or a file cannot be written.
     """
     # Where nobody looks lines are not folded: they are for other programs.
-    console = Console(highlight=False, emoji=False, width=None if sys.stdout.isatty() else _WIDE)
+    console = Console(highlight=False, emoji=False, markup=False, width=None if sys.stdout.isatty() else _WIDE)
     reviews = [read(path) for path in options.recordings]
     verdicts = [judge(text, numbers_of(one.report)) for one in reviews for text in options.checks]
     if len(reviews) > 1:

@@ -39,7 +39,7 @@ class Loss:
         time_s: mission clock of the first tick without an owner. owners: who had it until then.
         owners_gone: none of them is on duty any more.
         call: the call that was out for it, if any. helpers: who was on the way.
-        chances: who could have prevented it; the one with the most time first.
+        chances: who could have prevented it; the one that could have left last comes first.
         found_after_s: until somebody had it again; None: never.
     """
 
@@ -109,7 +109,10 @@ def _chances(
     speed_m_s: float,
     sensing_range_m: float,
 ) -> tuple[Chance, ...]:
-    """Free agents that, at full speed from where they were, would have been in sensing range when it was lost."""
+    """Free agents that, at full speed from where they were, would have been in sensing range when it was lost.
+
+    Whether they would have looked that way, if they do not see all around, is not asked.
+    """
     lost = lately[-1]
     place = lost.targets[target]
     if not place.present:

@@ -14,7 +14,7 @@ from missions.colors import ACTIVITY_COLORS, hex_color
 from missions.review.calls import Fate
 from missions.review.losses import Loss
 from missions.review.reading import Review
-from missions.review.series import buckets
+from missions.review.series import Bucket, buckets
 from missions.review.timeline import loss_words
 from missions.review.words import agent, clock, percent
 
@@ -71,12 +71,15 @@ def _facts(review: Review) -> Table:
     table.add_column()
     table.add_row(
         "coverage",
-        f"[bold]{percent(report['coverage'])}[/]   last quarter {percent(report['coverage_late'])}   "
-        f"floor {percent(report['coverage_floor'])}",
+        Text.assemble(
+            (percent(report["coverage"]), "bold"),
+            f"   last quarter {percent(report['coverage_late'])}   floor {percent(report['coverage_floor'])}",
+        ),
     )
-    if review.began_s is not None:
-        table.add_row("over time", _spark(review))
-        table.add_row("doing", _lane(review))
+    slices = buckets(review, _COLUMNS)
+    if slices:
+        table.add_row("over time", _spark(slices))
+        table.add_row("doing", _lane(slices))
     utilization = report["utilization"]
     table.add_row("utilization", "–" if utilization is None else f"{utilization:.2f} targets seen per agent")
     table.add_row(
@@ -103,29 +106,26 @@ def _facts(review: Review) -> Table:
     return table
 
 
-def _spark(review: Review) -> Text:
+def _spark(slices: Sequence[Bucket]) -> Text:
     """Coverage over the mission as a row of blocks."""
     spark = Text()
-    for bucket in buckets(review, _COLUMNS):
+    for bucket in slices:
         share = bucket.coverage
         level = 0 if share is None else max(1, round(share * (len(_BLOCKS) - 1)))
         spark.append(_BLOCKS[level], _GOOD if share is not None and share >= 0.9 else "")
     return spark
 
 
-def _lane(review: Review) -> Text:
+def _lane(slices: Sequence[Bucket]) -> Text:
     """What most agents did over the mission, as a row of colors, and what they stand for."""
-    lane, met = Text(), list[Activity]()
-    for bucket in buckets(review, _COLUMNS):
+    lane, shares = Text(), Counter[Activity]()
+    for bucket in slices:
+        shares += bucket.activities
         activity = bucket.activities.most_common(1)[0][0]
         lane.append("█", hex_color(ACTIVITY_COLORS[activity]))
-    shares = Counter[Activity]()
-    for bucket in buckets(review, _COLUMNS):
-        shares += bucket.activities
-    whole = sum(shares.values()) or 1
+    whole = shares.total()
     lane.append("\n")
     for activity, count in shares.most_common():
-        met.append(activity)
         lane.append(f"{activity.value} {100 * count / whole:.0f} %  ", hex_color(ACTIVITY_COLORS[activity]))
     return lane
 

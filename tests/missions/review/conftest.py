@@ -12,8 +12,9 @@ from missions.cli import main
 from missions.report import Report
 from missions.review.reading import Review, read
 
-# Help is called for and targets are lost; radio frames are lost; five seconds on two cores.
-FLOWN = ["launch", "quickstart", "--duration", "60", "--set", "radio.loss=0.1", "--set", "targets.count=12"]
+# Help is called for and targets are lost, radio frames are lost, a computer fails; five seconds on two cores.
+FLOWN = ["launch", "quickstart", "--duration", "50", "--set", "radio.loss=0.1", "--set", "targets.count=12"]
+FLOWN += ["--set", "faults=[{kind: kill, agents: [1], at_s: 20, for_s: 10}]"]
 
 
 @dataclass(frozen=True)

@@ -30,6 +30,8 @@ def test_the_report_is_counted_again_from_the_recording_alone(flown: Flown, caps
     assert counted["help"]["calls"] > 5
     assert counted["events"]["target_loss"] > 0
     assert counted["radio"]["lost"] > 0
+    assert counted["faults"]
+    assert counted["injected"][0]["noticed_by"] is not None
 
 
 def test_every_call_and_loss_of_the_report_has_its_story(flown: Flown) -> None:
