@@ -13,6 +13,7 @@ from rich.console import Console
 
 from comms.clock import Lockstep, Pace, RealTime
 from comms.session import open_local_bus
+from missions.checkout import commit
 from missions.compose import cos_half_opening
 from missions.faults.costs import Costs
 from missions.flight import Flight
@@ -164,12 +165,13 @@ def recorder_of(mission: Mission, n_targets: int, options: LaunchOptions) -> Rec
         from missions.recording import Recorder, Scene
     except ModuleNotFoundError as error:
         raise InputError(str(error)) from error
+    source = commit()
     scene = Scene(
         mission_name=mission.name,
         mission_yaml=dump_mission(mission),
         seed=mission.seed,
         policy=mission.policy.name,
-        versions=versions((*PACKAGES, "rerun-sdk")),
+        versions=versions((*PACKAGES, "rerun-sdk")) | ({"git": source} if source else {}),
         tick_s=mission.tick_s,
         arena=mission.arena.area,
         n_agents=mission.agents.count,

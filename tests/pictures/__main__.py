@@ -35,17 +35,11 @@ class Picture:
     size: tuple[int, int] = (1280, 720)
 
 
-QUICKSTART = ("quickstart",)
 PICTURES = {
-    "quickstart": Picture(QUICKSTART, 52.0, ("Mission",)),
-    "help": Picture(QUICKSTART, 60.0, ("Mission",)),
-    "knowledge": Picture(QUICKSTART, 60.0, ("Knowledge", "A4")),
-    "telemetry": Picture(QUICKSTART, 120.0, ("Telemetry",)),
+    "quickstart": Picture(("quickstart",), 52.0, ("Mission",)),
+    "knowledge": Picture(("quickstart",), 60.0, ("Knowledge", "A4")),
     "faults": Picture(("faults",), 128.0, ("Mission",)),
     "map": Picture(("wildlife", "--duration", "120"), 100.0, ("Map",)),
-    "sector": Picture(
-        ("quickstart", *_set("agents.sensing.field_of_view=sector", "duration_s=90")), 80.0, ("Mission",)
-    ),
     "hundred": Picture(("quickstart", *_set(*SIZES["100 + 100"], "duration_s=90")), 100.0, ("Mission",)),
 }
 
