@@ -5,7 +5,8 @@ BIN := $(VENV)/bin
 PEERS := .venv-peers
 CLIENTS := .venv-clients
 
-.PHONY: run test test-slow test-clients fuzz check format bench bench-vehicles bench-recording pictures bench-peers clean
+.PHONY: run test test-slow test-clients fuzz check format bench bench-processes bench-vehicles bench-recording pictures \
+	bench-peers clean
 
 run: $(VENV)/ground.done
 	@mkdir -p out
@@ -38,6 +39,10 @@ format: $(VENV)/all.done
 bench: $(VENV)/all.done
 	$(BIN)/python -m tests.benchmarks
 	$(BIN)/python -m tests.benchmarks.study
+
+# Ticks a second of daemons in lockstep beside one process, and what a daemon weighs: two minutes.
+bench-processes: $(VENV)/all.done
+	$(BIN)/python -m tests.benchmarks.processes
 
 bench-vehicles: $(VENV)/all.done
 	$(BIN)/python -m tests.benchmarks.vehicles

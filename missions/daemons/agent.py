@@ -107,6 +107,7 @@ class _Daemon:
             bus.declare_alive(keys.alive(uid))
             bus.answer(keys.every_command(uid), partial(self._ask, uid))
         bus.watch(keys.alive(WORLD), self._on_world)
+        self._log.info("ready")
         deadline_s = monotonic() + join_s
         while self._flying():
             self._greet()

@@ -46,7 +46,7 @@ class RemoteCrew:
     """Agents behind a bus, by uid. See `missions.sides.world.Crew`.
 
     Args:
-        fingerprint: of the mission; agents of another one are not let in. tell: for whoever watches.
+        fingerprint: of the mission; agents of another one are not let in. tell: what becomes of which agent.
         stop: once true, nobody is waited for who has not come yet.
 
     Attributes:
@@ -62,7 +62,7 @@ class RemoteCrew:
         air: Air,
         patience: Patience,
         fingerprint: str,
-        tell: Callable[[str], None],
+        tell: Callable[[int, Event], None],
         stop: Callable[[], bool],
     ) -> None:
         self.lost: set[int] = set()
@@ -149,12 +149,13 @@ class RemoteCrew:
         if done.tick == HELLO_TICK and done.fingerprint != self._fingerprint:
             if uid not in self._strangers:
                 self._strangers.add(uid)
-                self._tell(f"agent {uid} flies another mission, and is not let in: are its file and options the same?")
+                why = "flies another mission, and is not let in: are its file and options the same?"
+                self._tell(uid, Event(Level.ERROR, why))
             return
         if uid in self._missing:
             if uid in self._dones:
                 done = structs.replace(done, spoke=False)
-                self._news[uid] = Event(Level.WARNING, "its process is back")
+                self._say(uid, Event(Level.WARNING, "its process is back"))
             self._missing.discard(uid)
             self._new.add(uid)
         elif done.tick == HELLO_TICK:
@@ -167,10 +168,15 @@ class RemoteCrew:
     def _lose(self, uid: int, why: str) -> None:
         self._missing.add(uid)
         self.lost.add(uid)
-        self._news[uid] = Event(Level.ERROR, why)
+        self._say(uid, Event(Level.ERROR, why))
         last = self._dones[uid]
         gone = structs.replace(last.status, activity=Activity.LOST, tags=(), calls=(), helping=None, mates=())
         self._dones[uid] = structs.replace(last, status=gone, on_ground=True, ready=False, unheard=True)
+
+    def _say(self, uid: int, event: Event) -> None:
+        """To whoever watches, and with the agent's next status to whoever observes."""
+        self._news[uid] = event
+        self._tell(uid, event)
 
     def _now(self, uid: int, tick: int) -> Done:
         """What is known of an agent in this tick: its done, or its last one with nothing new in it."""

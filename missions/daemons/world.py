@@ -93,7 +93,7 @@ def _run(
         air=side.air,
         patience=_patience(mission, daemon, options),
         fingerprint=fingerprint(mission),
-        tell=log.error,
+        tell=lambda uid, event: log.events([event], who=f"agent-{uid}"),
         stop=desk.is_closing,
     )
     feed = Feed(bus, keys=keys, lockstep=daemon.lockstep, begin=partial(_explain, side))

@@ -25,7 +25,9 @@ class Swarm:
     """One command that runs, and what it says on standard error."""
 
     def __init__(self, *words: str) -> None:
-        self.process = subprocess.Popen((*COMMAND, *words), stderr=subprocess.PIPE, text=True, cwd=ROOT)
+        self.process = subprocess.Popen(
+            (*COMMAND, *words), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, cwd=ROOT
+        )
         self.said: list[str] = []
         self._lines: queue.Queue[str | None] = queue.Queue()
         threading.Thread(target=self._read, daemon=True).start()
@@ -89,6 +91,11 @@ def children(parent: int) -> dict[int, str]:
         except (FileNotFoundError, ProcessLookupError):
             continue
     return found
+
+
+def resident_mb(pid: int) -> float:
+    """How much memory it holds now."""
+    return int(_status(Path("/proc") / str(pid))["VmRSS"].split()[0]) / 1024
 
 
 def runs(pid: int) -> bool:

@@ -87,6 +87,25 @@ def test_an_agent_that_is_killed_is_lost_comes_back_and_costs_the_exit_code(tmp_
     assert report["duration_s"] == LONG_S
 
 
+def test_an_agent_that_stands_still_is_lost_for_a_while_in_real_time(tmp_path: Path) -> None:
+    file, endpoint = tmp_path / "report.json", free_endpoint()
+    mission = ("quickstart", *SMALL, "--speed", "4", "--duration", "60", "--log-level", "info")
+    with (
+        swarm("world", *mission, "--listen", endpoint, "--report", str(file)) as world,
+        swarm("agent", *mission, "--connect", endpoint, "--id", "0-1") as others,
+        swarm("agent", *mission, "--connect", endpoint, "--id", "2") as agent,
+    ):
+        world.wait_for("the mission begins")
+        agent.process.send_signal(signal.SIGSTOP)
+        world.wait_for('who=agent-2 text="no answer for')
+        agent.process.send_signal(signal.SIGCONT)
+        world.wait_for('who=agent-2 text="its process is back"')
+        assert [world.wait(), others.wait(), agent.wait()] == [1, 0, 0], world.output + agent.output
+    report = report_of(file)
+    assert report["duration_s"] == 60.0
+    assert report["timing"]["tick_late_s_max"] < LONG_S
+
+
 def test_when_the_launcher_is_killed_nobody_stays(tmp_path: Path) -> None:
     file = tmp_path / "report.json"
     launch = ("launch", "quickstart", *SMALL, *LONG, "--report", str(file), "--processes", "--listen", free_endpoint())
@@ -165,7 +184,7 @@ def test_an_agent_of_another_mission_is_not_let_in() -> None:
     one = ("narrow", "--set", "agents.count=1", "--listen", endpoint, "--join-timeout", "60")
     other = ("narrow", "--set", "agents.count=1", "--seed", "7", "--connect", endpoint, "--id", "0")
     with swarm("world", *one) as world, swarm("agent", *other):
-        world.wait_for("agent 0 flies another mission")
+        world.wait_for('who=agent-0 text="flies another mission')
 
 
 def test_two_worlds_do_not_share_a_port() -> None:
