@@ -21,8 +21,35 @@ LINKS = (
 )
 TRACKS = "the path of a CSV of tracks (--set targets.file=PATH)"
 
+KINDS = "kill, freeze, reboot, silence, loss, bursts, latency, partition, gps_lost, gps_glitch, battery_low, wind or identity"
+UIDS = "a list of agents' numbers, from 0"
+
 # What the file holds, and the lines expected, without the "m.yaml" that each begins with.
 CASES: dict[str, tuple[str, list[str]]] = {
+    # Faults.
+    "a fault without a kind, and one of another": ("name: m\nfaults:\n  - {at_s: 1}\n  - {kind: fire, at_s: 1}\n", [
+        f":3: faults.0.kind: got nothing; allowed: {KINDS}",
+        f':4: faults.1.kind: got "fire"; allowed: {KINDS}',
+    ]),
+    "a fault at no time, of nobody": ("name: m\nfaults:\n  - kind: kill\n    at_s: -1\n", [
+        f":3: faults.0.agents: got nothing; allowed: {UIDS}",
+        ":4: faults.0.at_s: got -1; allowed: a number from 0 to 1000000",
+    ]),
+    "a key of another kind": ("name: m\nfaults: [{kind: reboot, at_s: 1, agents: [0], for_s: 3}]\n", [
+        ":2: faults.0.for_s: got an unknown key; allowed: kind, at_s, agents",
+    ]),
+    "agents that there are not": ("name: m\nagents: {count: 3}\nfaults:\n  - {kind: freeze, at_s: 1, agents: [3]}\n", [
+        ":4: faults.0.agents: got a list; allowed: numbers from 0 to 2, below agents.count (3)",
+    ]),
+    "an agent in two groups": ("name: m\nfaults:\n  - {kind: partition, at_s: 1, groups: [[0, 1], [1]]}\n", [
+        ":3: faults.0.groups: got a list; allowed: each agent in one group",
+    ]),
+    "a broken part of a real vehicle": (
+        "name: m\nagents: {count: 2}\nvehicle: {kind: link, links: [pty, null]}\n"
+        "faults: [{kind: gps_lost, at_s: 1, agents: [0]}, {kind: kill, at_s: 1, agents: [0]}]\n", [
+        ":4: faults.0.agents: got a list; allowed: agents whose vehicles are simulated: one behind a link "
+        "(vehicle.links) has faults of its own",
+    ]),
     # One key.
     "negative": ("name: m\nagents:\n  count: 3\n  sensing:\n    range_m: -3\n", [
         ":5: agents.sensing.range_m: got -3; allowed: a number above 0",
