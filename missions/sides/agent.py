@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from types import MappingProxyType
 
+from msgspec import structs
+
 from comms.frames import Vec3, swap_enu_ned
 from comms.mavlink import Endpoint
 from comms.radio import Radio
-from comms.status import Activity, AgentStatus
+from comms.status import Activity, AgentStatus, Event, Level
 from comms.transport import Transport
 from missions import compose
 from missions.faults.breaker import Breaker
@@ -25,6 +27,7 @@ from vehicle_sim.autopilot import SimulatedVehicle
 # Told at every tick: the mission clock, what the vehicle has said by now, what the agent says to it.
 Tap = Callable[[float, bytes, bytes], None]
 NOTHING_COUNTED = LinkCount()
+LEFT_BEHIND = "its vehicle is left in the air: nobody flies it"
 
 
 class AgentSide:
@@ -50,6 +53,7 @@ class AgentSide:
         self._pad_m = pad_m
         self._tick_s = tick_s
         self._said = b""  # by the vehicle, at the end of the last tick
+        self._has_told = False
         self.tap: Tap | None = None
 
     @property
@@ -75,7 +79,9 @@ class AgentSide:
             self.tap(now_s, self._said, output.wire)
         self._said = self.vehicle.tick(after_s, output.wire)
         self.computer.take(self._said)
-        return self._done(cue.tick, output.status, spoke=output.frame is not None, abandoned=self._abandoned(cue))
+        abandoned = self._abandoned(cue)
+        status = self._with_last_words(output.status) if abandoned and cue.come_home else output.status
+        return self._done(cue.tick, status, spoke=output.frame is not None, abandoned=abandoned)
 
     def _think(self, cue: Cue, now_s: float) -> Output:
         ills, before = self._faults.at(cue.fault_tick), self.agent
@@ -89,6 +95,13 @@ class AgentSide:
             if isinstance(self.vehicle, LinkedVehicle):
                 self.vehicle.pilot = self.agent.pilot
         return output
+
+    def _with_last_words(self, status: AgentStatus) -> AgentStatus:
+        """When all come home, and nobody is there to bring home its vehicle, that is told once."""
+        if self._has_told or self.vehicle.truth.on_ground:
+            return status
+        self._has_told = True
+        return structs.replace(status, events=(*status.events, Event(Level.ERROR, LEFT_BEHIND)))
 
     def _abandoned(self, cue: Cue) -> bool:
         """Whether nobody will ever wait for it again."""

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from missions.cli import BAD_INPUT, main
+from missions.mission import faults
 
 BUNDLED = "baboons, crowded, faults, narrow, quickstart, reference, tracks, wildlife"
 TOP = (
@@ -21,7 +22,7 @@ LINKS = (
 )
 TRACKS = "the path of a CSV of tracks (--set targets.file=PATH)"
 
-KINDS = "kill, freeze, reboot, silence, loss, bursts, latency, partition, gps_lost, gps_glitch, battery_low, wind or identity"
+KINDS = f"{', '.join(faults.KINDS[:-1])} or {faults.KINDS[-1]}"
 UIDS = "a list of agents' numbers, from 0"
 
 # What the file holds, and the lines expected, without the "m.yaml" that each begins with.

@@ -97,6 +97,8 @@ class TestAKilledAgent:
             Activity.LOST,
             Activity.LANDED,
         ]
+        left = "its vehicle is left in the air: nobody flies it"
+        assert [fault["agent"] for fault in report["faults"] if fault["what"] == left] == [1, 2]
 
     def test_that_begins_anew_after_the_mission_is_brought_home_all_the_same(self) -> None:
         notes, _ = fly("[{kind: kill, at_s: 38, for_s: 4, agents: [2]}]")
