@@ -6,7 +6,8 @@ What is drawn is drawn for the eye, and seldom; the ledger has what metrics are 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import astuple, fields
+from dataclasses import fields
+from operator import attrgetter
 from typing import Any
 
 import pyarrow as pa
@@ -22,6 +23,7 @@ PHASE, DUTIES, TAGS, CALLS, TARGETS, TOTALS = (
 )
 TOTAL_NAMES = tuple(field.name for field in fields(Totals))
 NOBODY = -1
+_all_totals = attrgetter(*TOTAL_NAMES)
 
 Values = tuple[Any, ...]
 _WHOLE, _REAL, _TEXT = pa.int64(), pa.float64(), pa.string()
@@ -43,7 +45,7 @@ class Ledger:
             CALLS, block, _calls, {"agent": _WHOLE, "target": _WHOLE, "urgent": _WHOLE, "loss_in_s": _REAL}, keys=3
         )
         yield self._table(TARGETS, block, _targets, {"present": _WHOLE, "seen": _WHOLE})
-        yield self._table(TOTALS, block, lambda seen: tuple((n,) for n in astuple(seen.totals)), {"total": _WHOLE})
+        yield self._table(TOTALS, block, _totals, {"total": _WHOLE})
 
     def _table(
         self,
@@ -87,6 +89,10 @@ def _calls(seen: Observation) -> Sequence[Values]:
     return tuple(
         (status.uid, call.target, int(call.urgent), call.loss_in_s) for status in seen.statuses for call in status.calls
     )
+
+
+def _totals(seen: Observation) -> Sequence[Values]:
+    return tuple([(total,) for total in _all_totals(seen.totals)])
 
 
 def _targets(seen: Observation) -> Sequence[Values]:

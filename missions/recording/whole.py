@@ -25,6 +25,8 @@ def whole(path: Path) -> Iterator[tuple[Path, bool]]:
         part = path.with_name(path.name + ".part")
         hint = f"; did you mean {part}?" if part.is_file() else ""
         raise InputError(f"{path}: got no file; allowed: a recording, F.rrd or F.rrd.part{hint}")
+    if path.suffix == ".tlog":
+        raise InputError(f"{path}: got a telemetry log; allowed: a recording, which swarm import makes of it")
     if _is_whole(path):
         yield path, False
         return

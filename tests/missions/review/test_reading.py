@@ -106,3 +106,6 @@ def test_what_is_no_recording_is_bad_input(tmp_path: Path, content: bytes) -> No
         read(path)
     with pytest.raises(InputError, match="got no file"):
         read(tmp_path / "missing.rrd")
+    path.rename(tmp_path / "odd.tlog")
+    with pytest.raises(InputError, match="swarm import makes of it"):
+        read(tmp_path / "odd.tlog")
