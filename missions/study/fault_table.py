@@ -90,8 +90,8 @@ def faults_page(results: Results) -> list[str]:
         "## Faults",
         "",
         f"Coverage in the {WINDOW_S:g} s before a fault, while it lasts (for {WINDOW_S:g} s, if it is over at once or "
-        f"never) and in the {WINDOW_S:g} s after that. In brackets: how many points less than in the same seconds of "
-        "the same seeds without faults, with the 95 % interval.",
+        f"never) and in the {WINDOW_S:g} s after that. In brackets: the difference to the same seconds of the same "
+        "seeds without faults, in points, with its 95 % interval.",
         "",
         "| What | Fault | Noticed | Before | Meanwhile | Afterwards |",
         "|---|---|---|---|---|---|",
