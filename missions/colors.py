@@ -5,7 +5,7 @@ from __future__ import annotations
 from comms.status import Activity, Level
 
 ACTIVITY_COLORS: dict[Activity, int] = {
-    Activity.PREPARING: 0x9FB3C8FF,
+    Activity.PREPARING: 0x7F9DBDFF,
     Activity.TAKEN_OVER: 0xFF8FD0FF,
     Activity.EXPLORE: 0x4FA3FFFF,
     Activity.FOLLOW: 0x3DDC97FF,
@@ -16,7 +16,7 @@ ACTIVITY_COLORS: dict[Activity, int] = {
     Activity.LOST: 0xFF5C5CFF,
 }
 
-LEVEL_COLORS: dict[Level, int] = {Level.INFO: 0xC9D3E0FF, Level.WARNING: 0xFFB020FF, Level.ERROR: 0xFF5C5CFF}
+LEVEL_COLORS: dict[Level, int] = {Level.INFO: 0x8A9BB4FF, Level.WARNING: 0xFFB020FF, Level.ERROR: 0xFF5C5CFF}
 
 
 def hex_color(color: int) -> str:

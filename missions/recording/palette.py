@@ -24,7 +24,7 @@ LINK = 0xA9C0E04C
 BROKEN = 0xFF5C5CB0  # a frame that was lost on its way
 
 COVERAGE_NOW = 0x3DDC9799
-COVERAGE_MEAN = 0xFFFFFFFF
+COVERAGE_MEAN = 0xE0559BFF  # neither black nor white: it is seen on a light page and on a dark one
 COVERAGE_FLOOR = 0x6E7A90FF
 UTILIZATION = 0xFFB020FF
 RADIO_SENT = 0x4FA3FFFF
