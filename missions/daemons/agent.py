@@ -200,7 +200,11 @@ class _Daemon:
                 self._mail.give_up(uid)
 
     def _fly_home(self) -> int:
-        """The world has gone, and with it the clock: come down by ourselves."""
+        """The world has gone, and with it the clock: who is still up comes down by itself."""
+        for seat in self._seats.values():
+            seat.over = seat.over or seat.last.status.activity is Activity.LANDED
+        if not self._flying():
+            return self._code(DONE)
         self._log.error("the world has gone: flying home")
         tick_s = self._mission.tick_s
         pace: Pace = RealTime(tick_s=tick_s, speed=1.0) if self._transports else Lockstep()

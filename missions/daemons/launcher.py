@@ -70,7 +70,7 @@ class _Child:
 
 
 def run_processes(plans: Sequence[ProcessPlan], *, endpoint: str, console: Console) -> int:
-    """Run a plan until its world ends. Returns the world's exit code, or that of whoever it could not do without.
+    """Run a plan until its world ends. Returns the world's exit code: it knows whom it has lost, and who may be lost.
 
     Raises:
         InputError: another process listens at the endpoint.
@@ -105,15 +105,15 @@ def _watch(children: Sequence[_Child], ending: Ending, console: Console) -> int:
                 child.restart()
         sleep(LOOK_EVERY_S)
     code = max((_exit_code(child.code) for child in vital if child.code is not None), default=FAILED)
-    return code if _all_landed(children) else max(code, FAILED)
+    _await_landing(children)
+    return code
 
 
-def _all_landed(children: Sequence[_Child]) -> bool:
-    """Wait for those who outlive the world; whether they ended well."""
+def _await_landing(children: Sequence[_Child]) -> None:
+    """Wait for those who outlive the world."""
     deadline_s = monotonic() + LANDING_S
     while any(child.code is None for child in children) and monotonic() < deadline_s:
         sleep(LOOK_EVERY_S)
-    return all(child.code == 0 for child in children if not child.plan.vital)
 
 
 def _exit_code(code: int) -> int:

@@ -117,7 +117,7 @@ def _run(
     publish(report, to=options.report, console=console)
     if ending.asked:
         return STOPPED if ending.interrupted else DONE
-    return DONE if side.complete and not crew.lost and not feed.failures else FAILED
+    return DONE if side.complete and len(crew.lost) <= mission.agents.may_lose and not feed.failures else FAILED
 
 
 def _progress(mission: Mission, console: Console, metrics: Metrics) -> Progress:

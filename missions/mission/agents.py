@@ -62,6 +62,8 @@ class Agents(Part):
     """Where agents start."""
     altitude: Altitude = Altitude()
     """How high agents fly."""
+    may_lose: Annotated[int, Field(ge=0, le=250)] = 0
+    """How many agents' processes may die, or stop answering, without the mission having failed."""
 
     @property
     def sensing_ranges_m(self) -> tuple[float, ...]:

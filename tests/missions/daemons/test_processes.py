@@ -72,13 +72,14 @@ def test_a_whole_mission_and_its_recording_are_the_same(tmp_path: Path) -> None:
     assert result.returncode == 0, result.stderr[-2000:]
 
 
-def test_an_agent_that_is_killed_is_lost_comes_back_and_costs_the_exit_code(tmp_path: Path) -> None:
+@pytest.mark.parametrize(("words", "code"), [((), 1), (("--set", "agents.may_lose=1"), 0)], ids=["must not", "may"])
+def test_an_agent_that_is_killed_is_lost_and_comes_back(tmp_path: Path, words: tuple[str, ...], code: int) -> None:
     file = tmp_path / "report.json"
-    launch = ("launch", "quickstart", *SMALL, *LONG, "--report", str(file), "--processes", "--listen", free_endpoint())
-    with swarm(*launch) as run:
+    mission = ("quickstart", *SMALL, *LONG, *words, "--report", str(file))
+    with swarm("launch", *mission, "--processes", "--listen", free_endpoint()) as run:
         run.wait_for("the mission begins")
         kill(agent_pid(run.process.pid, 2), signal.SIGKILL)
-        assert run.wait() == 1, run.output
+        assert run.wait() == code, run.output
     report = report_of(file)
     whats = [(fault["agent"], fault["what"]) for fault in report["faults"]]
     assert (2, "its process has died") in whats
