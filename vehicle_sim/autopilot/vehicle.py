@@ -172,9 +172,10 @@ class SimulatedVehicle:
         self._begin_anew()
 
     def _begin_anew(self) -> None:
-        """After a reboot every link forgets what it was asked for."""
+        """After a reboot every link forgets what it was asked for, and uploads are over."""
         if self.autopilot.restarted:
             self.autopilot.restarted = False
+            self.desk.forget()
             for channel in self.channels:
                 channel.streams = self._new_streams()
             self._follow_stream_parameters()

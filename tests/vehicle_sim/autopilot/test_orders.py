@@ -151,6 +151,31 @@ def test_a_bad_attitude_moves_nothing(bad: Any) -> None:
     assert place(station) == pytest.approx((0.0, 0.0, -10.0), abs=0.1)
 
 
+def landed_north(station: GroundStation) -> GroundStation:
+    """Down and disarmed, 30 m north of where it was switched on."""
+    station.tick(position(30.0, 0.0, -5.0), seconds=15.0)
+    station.order(21)
+    while station.vehicle.truth.armed:
+        station.tick()
+    return station
+
+
+def test_home_is_where_it_was_armed_last() -> None:
+    station = landed_north(flying())
+    assert station.order(176, 1, GUIDED) == ACCEPTED
+    assert station.order(400, 1) == ACCEPTED
+    assert station.last("HOME_POSITION").latitude == pytest.approx(north_of_home(30.0)["x"], abs=30)
+
+
+def test_home_that_was_set_stays() -> None:
+    station = flying()
+    assert station.order(179, 0, 0, 0, 0, HOME.latitude_deg, HOME.longitude_deg, HOME.altitude_m) == ACCEPTED
+    landed_north(station)
+    station.order(176, 1, GUIDED)
+    assert station.order(400, 1) == ACCEPTED
+    assert station.last("HOME_POSITION").latitude == pytest.approx(north_of_home(0.0)["x"], abs=30)
+
+
 def test_home_moves_and_the_return_leads_there() -> None:
     station = flying()
     station.tick(position(30.0, 0.0, -10.0), seconds=12.0)

@@ -237,3 +237,12 @@ def test_any_item_gets_an_answer(item: Item, kind: Any) -> None:
 )
 def test_polygons_are_whole(items: tuple[Item, ...], closed: bool) -> None:
     assert polygons_closed(items) is closed
+
+
+def test_a_reboot_ends_an_upload() -> None:
+    station = ready()
+    station.tick(dialect.MAVLink_mission_count_message(3, 1, 5, 0))
+    assert station.order(246, 1) == 0
+    station.tick(seconds=10.0)
+    assert "Mission upload timeout" not in station.texts()
+    assert len([at_s for at_s, _ in station.all("MISSION_REQUEST")]) == 1

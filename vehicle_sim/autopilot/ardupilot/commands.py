@@ -156,17 +156,18 @@ def _condition_yaw(request: Request[Copter]) -> Result:
 
 
 def _set_home(request: Request[Copter]) -> Result:
-    """Parameter 1 is 1, or no place: here."""
+    """Parameter 1 is 1, or no place: here. It stays there."""
     item, pilot = request.item, request.pilot
-    if request.params[0] == 1.0:
-        return _done(pilot.set_home(None))
-    if item is None:
+    here = request.params[0] == 1.0
+    if item is None and not here:
         return Result.FAILED
-    if not (item.x or item.y):
-        return _done(pilot.set_home(None))
-    steering = pilot.guidance.steering
-    north_m, east_m, down_m = steering.ned_from_item(item, steering.home_ned_m)
-    return _done(pilot.set_home(geo_from_enu(pilot.origin, swap_enu_ned((north_m, east_m, down_m)))))
+    place = None
+    if item is not None and (item.x or item.y) and not here:
+        north_m, east_m, down_m = pilot.steering.ned_from_item(item, pilot.steering.home_ned_m)
+        place = geo_from_enu(pilot.origin, swap_enu_ned((north_m, east_m, down_m)))
+    done = pilot.set_home(place)
+    pilot.home_locked |= done
+    return _done(done)
 
 
 def _terminate(request: Request[Copter]) -> Result:

@@ -27,7 +27,11 @@ ARMS_IN_AUTO = 1  # a bit of AUTO_OPTIONS
 
 
 class Copter(Watched):
-    """One ArduCopter."""
+    """One ArduCopter.
+
+    Attributes:
+        home_locked: a ground station said where home is; otherwise it is where the vehicle was armed last.
+    """
 
     def __init__(
         self,
@@ -56,6 +60,7 @@ class Copter(Watched):
         self.failsafes = Failsafes()
         self._reminder = Reminder(started_at_s=started_at_s)
         self._yaw_aligned = False
+        self.home_locked = False
 
     @property
     def has_position(self) -> bool:
@@ -98,6 +103,8 @@ class Copter(Watched):
             return False
         self.armed = self.announce = True
         self.home_news = self.boot.stage.origin
+        if self.has_position and not self.home_locked:
+            self.set_home(None)
         self._idle_since_s = self.now_s
         self.guidance.enter(self.mode, self.now_s)
         if self.boot.stage.position:
@@ -147,7 +154,7 @@ class Copter(Watched):
         self.boot.restart()
         self.fence, self.failsafes = Fence(self.plans.fences), Failsafes()
         self._reminder = Reminder(started_at_s=self.now_s)
-        self._yaw_aligned = False
+        self._yaw_aligned = self.home_locked = False
         self.mode = Mode.STABILIZE
         self.mission.reset()
         self.mission.complete = False

@@ -50,6 +50,11 @@ class Desk:
         else:
             ROUTES[message.get_msgId()](self._transfers[kind], message, send, now_s)
 
+    def forget(self) -> None:
+        """A reboot: whoever was uploading begins again."""
+        for transfer in self._transfers.values():
+            transfer.forget()
+
     def watch(self, now_s: float) -> None:
         for transfer in self._transfers.values():
             transfer.watch(now_s)

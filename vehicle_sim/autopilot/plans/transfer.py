@@ -111,6 +111,10 @@ class Transfer:
         self._keeper.replace(self.store, ())
         return Answer.ACCEPTED
 
+    def forget(self) -> None:
+        """Drop the upload that is under way, without a word."""
+        self._upload = None
+
     def watch(self, now_s: float) -> None:
         """Ask again for what has not come; give up on who is gone."""
         upload = self._upload
