@@ -4,7 +4,11 @@
     for n in 0 1 2 3 4 5 6 7 8 9; do swarm agent quickstart --id $n & done
     swarm record quickstart --record out/q.rrd &
 
+    swarm status; swarm land --id 3
+
 Each is a page of shell around the code that runs in one process: `world` around `missions.sides.world`, `agent` around
-`missions.sides.agent`, `record` around `missions.recording`. `crew` is the barrier between them, `wire` their messages,
-`ending` how they are asked to end, `log` what they say. `plan` is which processes a launch runs, `launcher` runs them.
+`missions.sides.agent`, `record` around `missions.recording`. `crew` is the barrier between world and agents, `feed` the
+way from the world to the recorder, `wire` their messages, `ending` how they are asked to end, `log` what they say.
+`processes` is which of them a launch runs, `launcher` runs them. `fleet` is how people speak to vehicles under way, and
+`orders` what these make of it. `verbs`, `arguments` and `options` are their command lines.
 """

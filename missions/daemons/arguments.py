@@ -21,8 +21,9 @@ AGENT = """examples:
   swarm agent quickstart --id 0-4                    five agents in one process
   swarm agent my.yaml --id 0 --connect tcp/10.0.0.5:7447
 
-Ends when the world says that the mission is over. SIGTERM: fly home, land, disarm, exit 0; a second one: at once.
-If the world goes, or its link, the agent flies home by itself, and the code is 1."""
+The mission, what changes it, and --speed must be the world's. Ends when the world says that the mission is over.
+SIGTERM: fly home, land, disarm, exit 0; a second one: at once. If the world goes, or its link, the agent flies home by
+itself, and the code is 1."""
 
 RECORD = """examples:
   swarm record quickstart --record out/q.rrd
