@@ -70,6 +70,15 @@ def test_reposition_to_nowhere_is_denied(wrong: dict[str, Any]) -> None:
     assert place(station) == pytest.approx((0.0, 0.0, -10.0), abs=0.2)
 
 
+@pytest.mark.parametrize(("frame", "result"), [(3, ACCEPTED), (6, DENIED), (0, DENIED)])
+def test_a_takeoff_as_an_integer_command_counts_from_home(frame: int, result: int) -> None:
+    station = ready()
+    station.order(400, 1)
+    assert order_int(station, 22, z=10.0, frame=frame) == result
+    station.tick(seconds=12.0)
+    assert place(station)[2] == pytest.approx(-10.0 if result == ACCEPTED else 0.0, abs=0.1)
+
+
 def test_reposition_ends_a_takeoff_and_is_flown() -> None:
     station = ready()
     station.order(400, 1)

@@ -24,6 +24,7 @@ from vehicle_sim.autopilot.telemetry.fields import CUSTOM_MODE
 
 FORCE_ARM, FORCE_DISARM = 2989.0, 21196.0
 MISSION_CURRENT_ID, VERSION_ID = 42, 148
+ABOVE_HOME = 3  # the only MAV_FRAME of a takeoff
 CHANGE_MODE = 1  # a flag of DO_REPOSITION
 LONGEST_PERIOD_US = 2**31 - 1
 SHORTEST_US, LONGEST_US = 1_000.0, 60_000_000.0  # what becomes of shorter and of longer ones
@@ -66,6 +67,9 @@ def _arm_disarm(request: Request[Copter]) -> Result:
 
 
 def _takeoff(request: Request[Copter]) -> Result:
+    """Parameter 7 is above home; parameter 3 is 0 where it has to hold its place."""
+    if request.frame not in (None, ABOVE_HOME):
+        return Result.DENIED
     return _done(request.pilot.take_off(request.params[6], navigates=request.params[2] == 0.0))
 
 
