@@ -73,6 +73,11 @@ class Keys:
         """What it listens to."""
         return f"{_ROOT}/{self.mission}/cmd/{who}/*"
 
+    @property
+    def every_order(self) -> str:
+        """Where everybody takes commands."""
+        return f"{_ROOT}/{self.mission}/cmd/*/*"
+
     def cue(self, uid: int) -> str:
         """Where the world tells agent `uid` that a tick begins."""
         return f"{_ROOT}/{self.mission}/@sim/cue/{uid}"

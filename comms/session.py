@@ -5,18 +5,23 @@
         put = bus.publisher("a/1")
         put(b"hello")                        # on_sample("a/1", b"hello") has run when put returns
 
-Between processes: one `open_router`, and an `open_client` in each of the others. Constructors touch nothing: the
-session opens and closes with the `with` block.
+Between processes: one `open_router`, and an `open_client` in each of the others. With credentials both prove who they
+are (TLS, at a `tls/` endpoint), and the router's gate says who may do what. Constructors touch nothing: the session
+opens and closes with the `with` block.
 """
 
 from __future__ import annotations
 
 import json
+import socket
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from typing import Any, Protocol
 
 import zenoh
+
+from comms.access import Gate
+from comms.credentials import Credentials
 
 OnSample = Callable[[str, bytes], None]
 Put = Callable[[bytes], None]
@@ -54,7 +59,15 @@ class Network(Bus, Protocol):
 
 
 class BusError(Exception):
-    """A session cannot be opened; the text says why, and what may help."""
+    """A session cannot be opened; the text says why.
+
+    Attributes:
+        refused: somebody is there, and does not let us in.
+    """
+
+    def __init__(self, text: str, *, refused: bool = False) -> None:
+        super().__init__(text)
+        self.refused = refused
 
 
 class ZenohBus:
@@ -147,15 +160,21 @@ def open_local_bus() -> Iterator[ZenohBus]:
 
 
 @contextmanager
-def open_router(endpoint: str, *, lossless: bool) -> Iterator[ZenohBus]:
+def open_router(endpoint: str, *, lossless: bool, gate: Gate | None = None) -> Iterator[ZenohBus]:
     """The session through which all others of a mission speak: it listens there (`tcp/127.0.0.1:7447`).
+
+    Args:
+        gate: whom to let in, and to what; without one, everybody to everything.
 
     Raises:
         BusError: it cannot listen there.
     """
+    settings: dict[str, Any] = {"mode": "router", "listen/endpoints": [endpoint]}
+    if gate is not None:
+        settings |= _proofs(gate.credentials, "listen") | {"access_control": gate.access_control()}
     with ExitStack() as stack:
         try:
-            session = stack.enter_context(_open({"mode": "router", "listen/endpoints": [endpoint]}))
+            session = stack.enter_context(_open(settings))
         except zenoh.ZError as error:
             raise BusError(
                 f"cannot listen on {endpoint}: is it a free port of this machine? ({_reason(error)})"
@@ -164,23 +183,30 @@ def open_router(endpoint: str, *, lossless: bool) -> Iterator[ZenohBus]:
 
 
 @contextmanager
-def open_client(endpoint: str, *, lossless: bool, patience_s: float) -> Iterator[ZenohBus]:
+def open_client(
+    endpoint: str, *, lossless: bool, patience_s: float, credentials: Credentials | None = None
+) -> Iterator[ZenohBus]:
     """A session behind the router that listens there; after an outage it connects again by itself.
 
     Raises:
-        BusError: nobody listens there in `patience_s`.
+        BusError: nobody who lets us in listens there in `patience_s`.
     """
-    settings = {
+    settings: dict[str, Any] = {
         "mode": "client",
         "connect/endpoints": [endpoint],
         "connect/timeout_ms": round(patience_s * 1000),
         "connect/exit_on_failure": True,
         "connect/retry": {"period_init_ms": 100, "period_max_ms": 300, "period_increase_factor": 1.5},
     }
+    if credentials is not None:
+        settings |= _proofs(credentials, "connect")
     with ExitStack() as stack:
         try:
             session = stack.enter_context(_open(settings))
         except zenoh.ZError as error:
+            if _somebody_listens(endpoint):
+                text = f"who listens on {endpoint} has not let us in for {patience_s:g} s"
+                raise BusError(text, refused=True) from error
             raise BusError(f"nobody has answered on {endpoint} for {patience_s:g} s ({_reason(error)})") from error
         yield ZenohBus(session, lossless=lossless)
 
@@ -193,6 +219,28 @@ def _open(settings: Mapping[str, Any]) -> Iterator[Any]:
         config.insert_json5(key, json.dumps(value))
     with zenoh.open(config) as session:
         yield session
+
+
+def _proofs(credentials: Credentials, end: str) -> dict[str, Any]:
+    """Both ends show certificates. A router's is of another kind than a client's, so no address needs to be in it."""
+    tls = "transport/link/tls"
+    return {
+        f"{tls}/root_ca_certificate": str(credentials.authority),
+        f"{tls}/enable_mtls": True,
+        f"{tls}/verify_name_on_connect": False,
+        f"{tls}/{end}_certificate": str(credentials.certificate),
+        f"{tls}/{end}_private_key": str(credentials.key),
+    }
+
+
+def _somebody_listens(endpoint: str) -> bool:
+    """Whether a TCP port there is open, whatever is spoken on it."""
+    host, _, port = endpoint.partition("/")[2].rpartition(":")
+    try:
+        with socket.create_connection((host.strip("[]"), int(port)), timeout=_LOOK_S):
+            return True
+    except (OSError, ValueError, OverflowError):
+        return False
 
 
 def _reason(error: Exception) -> str:

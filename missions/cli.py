@@ -20,9 +20,11 @@ from missions.arguments import count, new_file, report, whole
 from missions.daemons.arguments import (
     AGENT,
     FLEET,
+    KEYS,
     RECORD,
     WORLD,
     add_fleet,
+    add_issue,
     add_processes,
     add_speed,
     agent_options,
@@ -126,6 +128,14 @@ def fleet(verb: str, options: argparse.Namespace) -> int:
     from missions.daemons import verbs
 
     return verbs.fleet(verb, options)
+
+
+def keys(options: argparse.Namespace) -> int:
+    """Make the credentials of a swarm."""
+    _need_extra("keys", "ground", ("cryptography",))
+    from missions.daemons import verbs
+
+    return verbs.issue(options)
 
 
 def check(options: argparse.Namespace) -> int:
@@ -334,6 +344,7 @@ def _parser() -> argparse.ArgumentParser:
     verbs = parser.add_subparsers(title="verbs", metavar="VERB", required=True)
 
     flying = _verb(verbs, "launch", launch, "fly a mission", _LAUNCH)
+    flying.usage = "swarm launch MISSION [options]"  # too many to name them twice
     _one_mission(flying)
     add_speed(flying)
     flying.add_argument("--record", type=new_file, metavar="F.rrd", help="write a recording for rerun")
@@ -362,6 +373,8 @@ def _parser() -> argparse.ArgumentParser:
     for name, about in FLEET.items():
         add_fleet(_verb(verbs, name, partial(fleet, name), about, fleet_examples(name)))
     _one_mission(record_options(_verb(verbs, "record", record, "record a mission of other processes", RECORD)))
+
+    add_issue(_verb(verbs, "keys", keys, "make credentials, so that nobody else can take part", KEYS))
 
     checking = _verb(verbs, "check", check, "validate missions", _CHECK)
     checking.add_argument("missions", nargs="+", metavar="MISSION", help=_mission_help())

@@ -16,6 +16,7 @@ from time import monotonic, sleep
 from msgspec import structs
 
 from comms.clock import Lockstep, Pace, RealTime
+from comms.credentials import agents_name
 from comms.keys import WORLD, Keys, sender, verb_of
 from comms.mailbox import Mailbox
 from comms.radio import Radio
@@ -26,6 +27,7 @@ from missions.daemons.ending import Ending
 from missions.daemons.log import Log
 from missions.daemons.options import DaemonOptions, fingerprint
 from missions.daemons.orders import Answer, Orders, Verb, Watch, encode_answer
+from missions.daemons.security import silence, why
 from missions.daemons.wire import OVER, decode_cue, encode
 from missions.links import open_transports
 from missions.mission import Mission
@@ -49,15 +51,21 @@ def agent(mission: Mission, uids: Sequence[int], options: DaemonOptions) -> int:
     Raises:
         InputError: a link to a vehicle that cannot be opened.
     """
-    log = Log(_name(uids), least=options.log_level)
+    log = Log(agents_name(uids), least=options.log_level)
     ending = Ending(log.info)
     with ending.listening(leash=options.leash), open_transports(mission, uids) as transports:
         try:
-            with open_client(options.endpoint, lossless=options.lockstep, patience_s=options.join_s) as bus:
-                daemon = _Daemon(mission, uids, bus, transports, ending=ending, log=log)
-                return daemon.run(join_s=options.join_s)
+            with open_client(
+                options.endpoint,
+                lossless=options.lockstep,
+                patience_s=options.join_s,
+                credentials=options.credentials,
+            ) as bus:
+                daemon = _Daemon(mission, uids, bus, transports, options, ending=ending, log=log)
+                return daemon.run()
         except BusError as error:
-            log.error(f"{error}: does `swarm world {mission.name}` run there?")
+            hint = f"does `swarm world {mission.name}` run there?"
+            log.error(why(error, options.credentials, otherwise=hint))
         except KeyboardInterrupt:
             log.error("ended at once, in the air or not")
     return STOPPED if ending.interrupted else FAILED
@@ -83,6 +91,7 @@ class _Daemon:
         uids: Sequence[int],
         bus: Network,
         transports: dict[int, Transport],
+        options: DaemonOptions,
         *,
         ending: Ending,
         log: Log,
@@ -90,6 +99,7 @@ class _Daemon:
         self._mission = mission
         self._bus = bus
         self._transports = transports
+        self._options = options
         self._ending = ending
         self._log = log
         self._keys = Keys(mission.name)
@@ -99,9 +109,9 @@ class _Daemon:
         self._world_gone = False
         self._seats = {uid: self._seat(uid, started_tick=0) for uid in uids}
 
-    def run(self, *, join_s: float) -> int:
+    def run(self) -> int:
         """Tick until everybody here is over; the exit code."""
-        bus, keys = self._bus, self._keys
+        bus, keys, join_s = self._bus, self._keys, self._options.join_s
         for uid in self._seats:
             bus.subscribe(keys.cue(uid), lambda key, payload: self._mail.put(sender(key), payload))
             bus.declare_alive(keys.alive(uid))
@@ -119,7 +129,8 @@ class _Daemon:
                 if self._ending.asked:
                     return self._code(DONE)
                 if monotonic() > deadline_s:
-                    self._log.error(f"no word from the world of {self._mission.name} for {join_s:g} s")
+                    hint = silence(self._options.credentials)
+                    self._log.error(f"no word from the world of {self._mission.name} for {join_s:g} s{hint}")
                     return FAILED
             elif self._world_gone and self._flying():
                 return self._fly_home()
@@ -173,7 +184,7 @@ class _Daemon:
             seat.over = True
         seat.last = done
         seat.put(encode(done))
-        self._log.events(done.status.events, who=_name([seat.side.uid]))
+        self._log.events(done.status.events, who=agents_name([seat.side.uid]))
 
     def _ask(self, uid: int, question: Question) -> None:
         with suppress(queue.Full):  # whoever asks so often gets no answer, and asks again
@@ -218,8 +229,3 @@ class _Daemon:
             if not self._flying():
                 break
         return self._code(FAILED)
-
-
-def _name(uids: Sequence[int]) -> str:
-    first, last = min(uids), max(uids)
-    return f"agent-{first}" if first == last else f"agents-{first}-{last}"

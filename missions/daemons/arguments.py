@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 
 from missions.arguments import count, new_file, report, seconds, speed, whole
 from missions.daemons.log import LEVELS
@@ -12,14 +13,14 @@ Parser = argparse.ArgumentParser
 
 WORLD = """examples:
   swarm world quickstart --report out/q.json         then, in other terminals, swarm agent quickstart --id 0 ...
-  swarm world my.yaml --listen tcp/0.0.0.0:7447      for agents on other hosts
+  swarm world my.yaml --listen tcp/0.0.0.0:7447 --keys keys      for agents on other hosts
 
 Waits until every agent of the mission is there; then the mission begins. SIGTERM: everybody lands, then it exits 0."""
 
 AGENT = """examples:
   swarm agent quickstart --id 3
   swarm agent quickstart --id 0-4                    five agents in one process
-  swarm agent my.yaml --id 0 --connect tcp/10.0.0.5:7447
+  swarm agent my.yaml --id 0 --connect tcp/10.0.0.5:7447 --keys keys
 
 The mission, what changes it, and --speed must be the world's. Ends when the world says that the mission is over.
 SIGTERM: fly home, land, disarm, exit 0; a second one: at once. If the world goes, or its link, the agent flies home by
@@ -32,6 +33,16 @@ RECORD = """examples:
 Start it before the last agent, or begin the world with --recorded: it records from when it is there until the mission
 is over. SIGTERM: the recording ends there, whole, and the code is 0."""
 
+KEYS = """examples:
+  swarm keys keys --agents 10
+  swarm launch quickstart --processes --keys keys
+  swarm status --keys keys
+  swarm keys keys5 --agents 10 --per-process 5       for swarm agent --id 0-4 and --id 5-9
+
+Who has agent-3.key can speak for agent 3 and for nobody else, sees nothing but its own sight, and commands nobody. Give
+each computer authority.pem and the .pem and .key of its own name; the world's folder also holds the .pem of all whom it
+lets in. The authority's own key is not kept: for more agents make all anew."""
+
 # What each verb for vehicles under way does.
 FLEET = {
     "status": "show how every vehicle is: a table, live on a terminal",
@@ -39,7 +50,7 @@ FLEET = {
     "resume": "let vehicles go on after a hold",
     "return": "bring vehicles home, and let the others go on",
     "land": "land vehicles where they are",
-    "stop": "bring the swarm home and end it; with --id, an agent and its process",
+    "stop": "bring everybody home and end; with --id, an agent alone",
 }
 
 
@@ -48,7 +59,7 @@ def fleet_examples(verb: str) -> str:
     return f"""examples:
   swarm {verb}
   swarm {verb} quickstart --id 3
-  swarm {verb} --connect tcp/10.0.0.5:7447
+  swarm {verb} --connect tcp/10.0.0.5:7447 --keys keys
 
 Speaks to the processes of `swarm launch --processes`, or of `swarm world` and `swarm agent`. Every vehicle answers for
 itself, and is asked three times; the code is 1 if any refuses, or gives no answer."""
@@ -59,6 +70,7 @@ def world_options(parser: Parser) -> Parser:
     add_speed(parser)
     parser.add_argument("--report", type=report, metavar="F.json", help="write the report; - is standard output")
     parser.add_argument("--recorded", action="store_true", help="wait for a recorder, too")
+    _add_insecure(parser)
     return _add_daemon(parser, "--listen", "listen there")
 
 
@@ -90,6 +102,8 @@ def add_processes(parser: Parser) -> None:
     parser.add_argument("--processes", nargs="?", type=count, const=1, metavar="N", help=about)
     parser.add_argument("--listen", default=ENDPOINT, metavar="ENDPOINT", help=f"where they meet ({ENDPOINT})")
     parser.add_argument("--restarts", type=whole, default=3, metavar="N", help="of an agent's process that fails (3)")
+    _add_keys(parser)
+    _add_insecure(parser)
     _add_log_level(parser, default="error")
 
 
@@ -97,9 +111,25 @@ def _add_daemon(parser: Parser, where: str, about: str) -> Parser:
     parser.add_argument(where, dest="endpoint", default=ENDPOINT, metavar="ENDPOINT", help=f"{about} ({ENDPOINT})")
     about = f"wait so long for the others ({JOIN_S:g})"
     parser.add_argument("--join-timeout", type=seconds, default=JOIN_S, metavar="S", help=about)
+    _add_keys(parser)
     _add_log_level(parser, default="info")
     parser.add_argument("--leash", action="store_true", help="end, as by SIGTERM, when standard input does")
     return parser
+
+
+def _folder(text: str) -> Path:
+    path = Path(text)
+    if not path.is_dir():
+        raise argparse.ArgumentTypeError(f'got "{text}"; allowed: a folder that `swarm keys` has made')
+    return path
+
+
+def _add_keys(parser: Parser) -> None:
+    parser.add_argument("--keys", type=_folder, metavar="DIR", help="prove who it is by what `swarm keys` put there")
+
+
+def _add_insecure(parser: Parser) -> None:
+    parser.add_argument("--insecure", action="store_true", help="let in everybody, from other computers too")
 
 
 def _add_log_level(parser: Parser, *, default: str) -> None:
@@ -115,3 +145,13 @@ def add_fleet(parser: Parser) -> None:
     parser.add_argument("--id", metavar="N", help="this agent, or these: 0-4; everybody, if none")
     about = f"where the world listens ({ENDPOINT})"
     parser.add_argument("--connect", default=ENDPOINT, metavar="ENDPOINT", help=about)
+    _add_keys(parser)
+
+
+def add_issue(parser: Parser) -> None:
+    """Add what `swarm keys` has."""
+    parser.add_argument("folder", type=Path, metavar="DIR", help="the folder to make, which nobody else may read")
+    parser.add_argument("--agents", type=count, default=10, metavar="N", help="for so many agents (10)")
+    about = "agents in one process, as in launch --processes N (1)"
+    parser.add_argument("--per-process", type=count, default=1, metavar="N", help=about)
+    parser.add_argument("--force", action="store_true", help="throw away the credentials that are there")

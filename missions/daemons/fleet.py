@@ -14,10 +14,12 @@ from rich.console import Console
 from rich.live import Live
 from rich.table import Table
 
+from comms.credentials import Credentials
 from comms.keys import EVERYBODY_OF_ANY_MISSION, WORLD, Keys, somebody
 from comms.session import BusError, Network, open_client
 from missions.daemons.options import ENDPOINT
 from missions.daemons.orders import Answer, Report, Verb, decode_answer
+from missions.daemons.security import silence, why
 
 DONE, FAILED = 0, 1
 
@@ -34,11 +36,13 @@ class FleetOptions:
 
     Attributes:
         mission: its name; None: of all missions there. uids: these agents; None: everybody.
+        credentials: the operator's, on a secured network.
     """
 
     endpoint: str = ENDPOINT
     mission: str | None = None
     uids: tuple[int, ...] | None = None
+    credentials: Credentials | None = None
 
 
 Who = tuple[str, str]  # mission, and uid or WORLD
@@ -49,15 +53,16 @@ def tell(verb: Verb, options: FleetOptions) -> int:
     """Tell everybody, and say what came of it. Returns 1 if anybody failed."""
     console = Console(width=None if sys.stdout.isatty() else _NEVER_WRAP)
     try:
-        with open_client(options.endpoint, lossless=True, patience_s=CONNECT_S) as bus:
+        with open_client(options.endpoint, lossless=True, patience_s=CONNECT_S, credentials=options.credentials) as bus:
             if verb is Verb.STATUS and console.is_terminal:
                 return _watch(bus, options, console)
             answers = ask(bus, verb, options)
     except BusError as error:
-        sys.stderr.write(f"{error}: does `swarm launch --processes` or `swarm world` run there?\n")
+        hint = "does `swarm launch --processes` or `swarm world` run there?"
+        sys.stderr.write(f"{why(error, options.credentials, otherwise=hint)}\n")
         return FAILED
     if not answers:
-        sys.stderr.write(f"nobody of {options.mission or 'any mission'} is there\n")
+        sys.stderr.write(f"nobody of {options.mission or 'any mission'} is there{silence(options.credentials)}\n")
         return FAILED
     console.print(status_table(answers) if verb is Verb.STATUS else result_table(answers))
     return DONE if all(answer is not None and answer.obeyed for answer in answers.values()) else FAILED

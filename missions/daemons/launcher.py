@@ -125,7 +125,7 @@ def _check_free(endpoint: str) -> None:
     """Agents must not find another mission's world where ours cannot listen."""
     protocol, _, address = endpoint.partition("/")
     host, _, port = address.rpartition(":")
-    if protocol != "tcp" or not port.isdigit():
+    if protocol not in ("tcp", "tls") or not port.isdigit():
         raise InputError(f"--listen: got {endpoint}; allowed: tcp/ADDRESS:PORT")
     try:
         with socket.create_server((host.strip("[]"), int(port))):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from hashlib import sha256
 
+from comms.credentials import Credentials
 from comms.status import Level
 from missions.mission import Mission
 
@@ -21,6 +22,7 @@ class DaemonOptions:
         endpoint: where the world listens, as zenoh writes it. join_s: how long to wait for each other at the start.
         lockstep: whether nothing may be dropped, because everybody waits for everybody.
         log_level: the least that is said. leash: end when standard input does.
+        credentials: what proves who it is; None: anybody may come in.
     """
 
     endpoint: str = ENDPOINT
@@ -28,6 +30,7 @@ class DaemonOptions:
     lockstep: bool = True
     log_level: Level = Level.INFO
     leash: bool = False
+    credentials: Credentials | None = None
 
 
 def fingerprint(mission: Mission) -> str:

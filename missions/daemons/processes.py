@@ -40,7 +40,8 @@ class ProcessOptions:
 
     Attributes:
         mission_words: the mission and what changes it, as on the command line. speed: as given to --speed, if it was.
-        per_process: agents in one process. restarts: of an agent that fails.
+        per_process: agents in one process. restarts: of an agent that fails. keys: the folder of all credentials, if
+        the network is secured. insecure: whether that is left out on purpose.
     """
 
     mission_words: tuple[str, ...]
@@ -51,11 +52,15 @@ class ProcessOptions:
     per_process: int = 1
     restarts: int = 3
     log_level: str = "warning"
+    keys: Path | None = None
+    insecure: bool = False
 
 
 def plan_processes(mission: Mission, options: ProcessOptions) -> tuple[ProcessPlan, ...]:
     """The processes of a mission, in the order in which they start."""
-    common = ("--log-level", options.log_level)
+    secured = () if options.keys is None else ("--keys", str(options.keys))
+    common = ("--log-level", options.log_level, *secured)
+    insecure = ("--insecure",) if options.insecure else ()
     speed = () if options.speed is None else ("--speed", options.speed)
     report = () if options.report is None else ("--report", options.report)
     connect = (*options.mission_words, "--connect", options.endpoint, *speed, *common)
@@ -72,6 +77,7 @@ def plan_processes(mission: Mission, options: ProcessOptions) -> tuple[ProcessPl
                 *report,
                 *recorded,
                 *common,
+                *insecure,
                 "--leash",
             ),
             vital=True,

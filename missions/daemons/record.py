@@ -14,6 +14,7 @@ from missions.daemons.ending import Ending
 from missions.daemons.feed import KEPT_EVERY_TICKS, WINDOW_TICKS, Kept
 from missions.daemons.log import Log
 from missions.daemons.options import DaemonOptions
+from missions.daemons.security import silence, why
 from missions.daemons.wire import OVER, decode_observation
 from missions.launch import DONE, FAILED, STOPPED, recorder_of
 from missions.mission import Mission
@@ -43,10 +44,13 @@ def record(mission: Mission, daemon: DaemonOptions, options: LaunchOptions) -> i
         except OutputError as error:
             raise InputError(str(error)) from error
         try:
-            with open_client(daemon.endpoint, lossless=daemon.lockstep, patience_s=daemon.join_s) as bus:
+            with open_client(
+                daemon.endpoint, lossless=daemon.lockstep, patience_s=daemon.join_s, credentials=daemon.credentials
+            ) as bus:
                 return _Reel(mission, bus, recorder, daemon, ending=ending, log=log).run()
         except BusError as error:
-            log.error(f"{error}: does `swarm world {mission.name}` run there?")
+            hint = f"does `swarm world {mission.name}` run there?"
+            log.error(why(error, daemon.credentials, otherwise=hint))
         except KeyboardInterrupt:
             log.error("ended at once")
     return STOPPED if ending.interrupted else FAILED
@@ -100,7 +104,8 @@ class _Reel:
                     return FAILED
                 if not begun:
                     if monotonic() > deadline_s:
-                        self._log.error(f"no word from the world for {self._daemon.join_s:g} s")
+                        hint = silence(self._daemon.credentials)
+                        self._log.error(f"no word from the world for {self._daemon.join_s:g} s{hint}")
                         return FAILED
                     self._tell(Kept(HELLO_TICK, recording=self._path))
                 continue

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Iterator
 from math import isinf
 
+from comms.credentials import OPERATOR, agents_name
+from comms.keys import RECORDER, WORLD
 from comms.status import Level
 from missions.daemons.options import DaemonOptions
 from missions.daemons.processes import ProcessOptions, ProcessPlan, plan_processes
+from missions.daemons.security import check_all_known, check_listening, credentials_of, endpoint_of
 from missions.load import load_mission
 from missions.mission import Mission
 from missions.options import LaunchOptions, speed_of
@@ -22,9 +26,13 @@ def world(mission: Mission, options: argparse.Namespace) -> int:
     from missions.daemons.world import WorldOptions
     from missions.daemons.world import world as run
 
+    check_listening(options.endpoint, keys=options.keys, insecure=options.insecure)
     speed = speed_of(mission, options.speed)
+    daemon = _daemon(options, speed, WORLD)
+    if daemon.credentials is not None:
+        check_all_known(daemon.credentials, mission)
     settings = WorldOptions(speed=speed, report=options.report, recorded=options.recorded)
-    return run(mission, _daemon(options, speed), settings)
+    return run(mission, daemon, settings)
 
 
 def agent(mission: Mission, options: argparse.Namespace) -> int:
@@ -32,7 +40,7 @@ def agent(mission: Mission, options: argparse.Namespace) -> int:
     uids = uids_of(mission, options.id)
     from missions.daemons.agent import agent as run
 
-    return run(mission, uids, _daemon(options, speed_of(mission, options.speed)))
+    return run(mission, uids, _daemon(options, speed_of(mission, options.speed), agents_name(uids)))
 
 
 def record(mission: Mission, options: argparse.Namespace) -> int:
@@ -43,7 +51,7 @@ def record(mission: Mission, options: argparse.Namespace) -> int:
     settings = LaunchOptions(speed=speed, record=options.record, view=options.view, web=options.web)
     if not settings.is_recorded:
         raise InputError("record: got nothing to do; allowed: --record, --view, --web, or several of them")
-    return run(mission, _daemon(options, speed), settings)
+    return run(mission, _daemon(options, speed, RECORDER), settings)
 
 
 def launch(mission: Mission, options: argparse.Namespace) -> int:
@@ -73,7 +81,22 @@ def fleet(verb: str, options: argparse.Namespace) -> int:
     from missions.daemons.orders import Verb
 
     name = None if mission is None else mission.name
-    return tell(Verb(verb), FleetOptions(endpoint=options.connect, mission=name, uids=uids))
+    settings = FleetOptions(
+        endpoint=endpoint_of(options.connect, keys=options.keys),
+        mission=name,
+        uids=uids,
+        credentials=credentials_of(options.keys, OPERATOR),
+    )
+    return tell(Verb(verb), settings)
+
+
+def issue(options: argparse.Namespace) -> int:
+    """Make the credentials of a swarm."""
+    from missions.daemons.issue import issue as make
+
+    names = make(options.folder, n_agents=options.agents, per_process=options.per_process, force=options.force)
+    sys.stdout.write(f"{options.folder}: {', '.join(names)}\n")
+    return 0
 
 
 def processes(mission: Mission, options: argparse.Namespace) -> tuple[ProcessPlan, ...]:
@@ -81,6 +104,7 @@ def processes(mission: Mission, options: argparse.Namespace) -> tuple[ProcessPla
     given = vars(options)
     speed = given.get("speed")
     speed_of(mission, speed)
+    check_listening(options.listen, keys=options.keys, insecure=options.insecure)
     settings = ProcessOptions(
         mission_words=tuple(_mission_words(options)),
         endpoint=options.listen,
@@ -90,6 +114,8 @@ def processes(mission: Mission, options: argparse.Namespace) -> tuple[ProcessPla
         per_process=options.processes,
         restarts=options.restarts,
         log_level=options.log_level,
+        keys=options.keys,
+        insecure=options.insecure,
     )
     return plan_processes(mission, settings)
 
@@ -128,11 +154,12 @@ def whole_range(text: str, *, most: int = MAX_AGENTS - 1) -> tuple[int, ...]:
     raise InputError(f'--id: got "{text}"; allowed: a number from 0 to {most}, or several, such as 0-{most}')
 
 
-def _daemon(options: argparse.Namespace, speed: float) -> DaemonOptions:
+def _daemon(options: argparse.Namespace, speed: float, name: str) -> DaemonOptions:
     return DaemonOptions(
-        endpoint=options.endpoint,
+        endpoint=endpoint_of(options.endpoint, keys=options.keys),
         join_s=options.join_timeout,
         lockstep=isinf(speed),
         log_level=Level(options.log_level),
         leash=options.leash,
+        credentials=credentials_of(options.keys, name),
     )

@@ -11,6 +11,7 @@ from math import inf
 
 from rich.console import Console
 
+from comms.access import Gate
 from comms.keys import WORLD, Keys
 from comms.session import BusError, Network, Question, open_router
 from missions.daemons.crew import CrewError, Patience, RemoteCrew
@@ -63,7 +64,7 @@ def world(mission: Mission, daemon: DaemonOptions, options: WorldOptions) -> int
     ending = Ending(log.info)
     with ending.listening(leash=daemon.leash):
         try:
-            with open_router(daemon.endpoint, lossless=daemon.lockstep) as bus:
+            with open_router(daemon.endpoint, lossless=daemon.lockstep, gate=_gate(mission, daemon)) as bus:
                 return _run(mission, bus, daemon, options, ending=ending, log=log, console=console)
         except BusError as error:
             raise InputError(f"--listen: {error}") from error
@@ -72,6 +73,12 @@ def world(mission: Mission, daemon: DaemonOptions, options: WorldOptions) -> int
         except KeyboardInterrupt:
             log.error("ended at once, and the swarm flies home without a world")
     return STOPPED if ending.interrupted else FAILED
+
+
+def _gate(mission: Mission, daemon: DaemonOptions) -> Gate | None:
+    """Whom to let in: those whose certificates lie beside the world's own."""
+    own = daemon.credentials
+    return None if own is None else Gate(own, Keys(mission.name), tuple(own.known))
 
 
 def _run(
@@ -98,7 +105,8 @@ def _run(
     )
     feed = Feed(bus, keys=keys, lockstep=daemon.lockstep, begin=partial(_explain, side))
     bus.declare_alive(keys.alive(WORLD))
-    log.info(f"listens on {daemon.endpoint}, and waits for {mission.agents.count} agents")
+    known = "" if daemon.credentials is None else f" whose certificates lie in {daemon.credentials.folder}"
+    log.info(f"listens on {daemon.endpoint}, and waits for {mission.agents.count} agents{known}")
     observers: list[Observer] = [metrics, feed, _Teller(log)]
     try:
         if options.recorded:

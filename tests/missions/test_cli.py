@@ -18,7 +18,7 @@ from missions.options import LaunchOptions
 from missions.overrides import Override
 from missions.schema import mission_schema
 
-VERBS = ("launch", "world", "agent", "record", "status", "hold", "check", "plan", "schema", "sim", "study")
+VERBS = ("launch", "world", "agent", "record", "status", "hold", "keys", "check", "plan", "schema", "sim", "study")
 
 
 @pytest.mark.parametrize("verb", VERBS)

@@ -1,0 +1,110 @@
+"""Who may say and hear what on a secured network. What is not in these tables is denied, by the router, to everybody.
+
+An agent speaks by its own radio and of itself alone, hears its own receiver and its own cues, and answers people. The
+recorder hears the truth and says how far it has got. The operator sees who is there, and gives orders. A name is that
+of a certificate (`comms.credentials`), not what a frame says of itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any
+
+from comms.credentials import OPERATOR, Credentials, agents_named
+from comms.keys import EVERYBODY_OF_ANY_MISSION, RECORDER, WORLD, Keys
+
+
+class Deed(Enum):
+    """What one may do at a key: what passes from it to the router, and what from the router to it."""
+
+    SAY = (("put",), ())
+    KNOW_LISTENERS = ((), ("declare_subscriber",))  # without, nothing is sent: a publisher waits for listeners
+    HEAR = (("declare_subscriber",), ("put",))
+    BE_THERE = (("liveliness_token",), ())
+    WATCH = (("declare_liveliness_subscriber", "liveliness_query"), ("liveliness_token", "reply"))
+    ANSWER = (("declare_queryable", "reply"), ("query",))
+    ASK = (("query",), ("declare_queryable", "reply"))
+
+
+Rights = Sequence[tuple[Deed, Sequence[str]]]
+
+
+@dataclass(frozen=True, slots=True)
+class Gate:
+    """What a router needs to know whom it lets in.
+
+    Attributes:
+        credentials: its own. keys: of its mission. names: whom it knows; nobody else may say or hear anything.
+    """
+
+    credentials: Credentials
+    keys: Keys
+    names: tuple[str, ...]
+
+    def access_control(self) -> dict[str, Any]:
+        """The section `access_control` of zenoh's configuration."""
+        granted = {name: list(_rules(name, rights(self.keys, name))) for name in self.names}
+        granted = {name: rules for name, rules in granted.items() if rules}  # zenoh takes no empty list
+        return {
+            "enabled": True,
+            "default_permission": "deny",
+            "rules": [rule for rules in granted.values() for rule in rules],
+            "subjects": [{"id": name, "cert_common_names": [name]} for name in granted],
+            "policies": [
+                {"rules": [rule["id"] for rule in rules], "subjects": [name]} for name, rules in granted.items()
+            ],
+        }
+
+
+def rights(keys: Keys, name: str) -> Rights:
+    """What `name` may do; nothing if it is not a name of a swarm."""
+    if name == RECORDER:
+        return _recorder(keys)
+    if name == OPERATOR:
+        return _operator(keys)
+    return _agents(keys, agents_named(name))
+
+
+def _agents(keys: Keys, uids: Sequence[int]) -> Rights:
+    if not uids:
+        return ()
+    return (
+        (Deed.SAY, [key for uid in uids for key in (keys.tx(uid), keys.done(uid))]),
+        (Deed.KNOW_LISTENERS, [keys.every_tx, keys.every_done]),
+        (Deed.HEAR, [key for uid in uids for key in (keys.every_rx(uid), keys.cue(uid))]),
+        (Deed.BE_THERE, [keys.alive(uid) for uid in uids]),
+        (Deed.WATCH, [keys.alive(WORLD)]),
+        (Deed.ANSWER, [keys.every_command(uid) for uid in uids]),
+    )
+
+
+def _recorder(keys: Keys) -> Rights:
+    return (
+        (Deed.SAY, [keys.kept]),
+        (Deed.KNOW_LISTENERS, [keys.kept]),
+        (Deed.HEAR, [keys.truth]),
+        (Deed.BE_THERE, [keys.alive(RECORDER)]),
+        (Deed.WATCH, [keys.alive(WORLD)]),
+    )
+
+
+def _operator(keys: Keys) -> Rights:
+    return (
+        (Deed.WATCH, [EVERYBODY_OF_ANY_MISSION]),
+        (Deed.ASK, [keys.every_order]),
+    )
+
+
+def _rules(name: str, rights: Rights) -> Iterable[dict[str, Any]]:
+    for deed, key_exprs in rights:
+        for flow, messages in zip(("ingress", "egress"), deed.value, strict=True):
+            if messages:
+                yield {
+                    "id": f"{name} {deed.name} {flow}",
+                    "permission": "allow",
+                    "flows": [flow],
+                    "messages": list(messages),
+                    "key_exprs": list(key_exprs),
+                }

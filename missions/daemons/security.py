@@ -1,0 +1,104 @@
+"""Whether those who speak to each other prove who they are: `--keys`, `--insecure`, and where to look when it fails."""
+
+from __future__ import annotations
+
+from ipaddress import ip_address
+from pathlib import Path
+
+from comms.credentials import Credentials, agents_named
+from comms.session import BusError
+from missions.mission import Mission
+from missions.problems import InputError
+
+_PLAIN, _SECURED = "tcp/", "tls/"
+LOCAL_NAMES = ("localhost",)
+
+
+def endpoint_of(text: str, *, keys: Path | None) -> str:
+    """The endpoint as it is spoken to: with keys, TLS in place of bare TCP.
+
+    Raises:
+        InputError: TLS without keys, or keys where there is no TLS.
+    """
+    if keys is None:
+        if text.startswith(_SECURED):
+            raise InputError(f"{text}: got no keys; allowed: --keys DIR, with what `swarm keys DIR` makes")
+        return text
+    if not text.startswith((_PLAIN, _SECURED)):
+        raise InputError(f"{text}: cannot be secured by --keys; allowed: tcp/ADDRESS:PORT")
+    return _SECURED + text.partition("/")[2]
+
+
+def check_listening(text: str, *, keys: Path | None, insecure: bool) -> None:
+    """See that nobody on the network can take part unasked.
+
+    Raises:
+        InputError: an endpoint that other computers reach, without keys.
+    """
+    if keys is None and not insecure and not _is_local(text):
+        raise InputError(
+            f"--listen: got {text}, where other computers may come in; allowed: --keys DIR, as `swarm keys DIR` makes "
+            "it, or --insecure to let in everybody"
+        )
+
+
+def credentials_of(keys: Path | None, name: str) -> Credentials | None:
+    """What proves that one is `name`; None on an open network.
+
+    Raises:
+        InputError: the folder does not hold it.
+    """
+    if keys is None:
+        return None
+    credentials = Credentials(keys, name)
+    if credentials.missing:
+        raise InputError(
+            f"--keys: {keys} has no {', '.join(file.name for file in credentials.missing)}; `swarm keys` makes them: "
+            "--agents N of them, --per-process N in one process"
+        )
+    return credentials
+
+
+def check_all_known(credentials: Credentials, mission: Mission) -> None:
+    """See that every agent of the mission can be let in.
+
+    Raises:
+        InputError: the world does not know some of them.
+    """
+    known = {uid for name in credentials.known for uid in agents_named(name)}
+    strangers = [str(uid) for uid in range(mission.agents.count) if uid not in known]
+    if strangers:
+        raise InputError(
+            f"--keys: {credentials.folder} has no certificate of agent {', '.join(strangers)}; "
+            f"allowed: what `swarm keys --agents {mission.agents.count}` makes"
+        )
+
+
+def why(error: BusError, credentials: Credentials | None, *, otherwise: str) -> str:
+    """Why nobody was reached, and what to look at."""
+    if not error.refused:
+        return f"{error}: {otherwise}"
+    if credentials is None:
+        return f"{error}: if it was started with --keys, give --keys here, too"
+    return (
+        f"{error}: was it started with --keys, too, and are {credentials.certificate} and its key from the same "
+        "`swarm keys` as the world's?"
+    )
+
+
+def silence(credentials: Credentials | None) -> str:
+    """What to look at when nobody answers who should, or who does is not heard: a denial is silent."""
+    if credentials is None:
+        return ""
+    return f" (or {credentials.certificate} is not what its name says: what its owner may not say or hear is dropped)"
+
+
+def _is_local(text: str) -> bool:
+    protocol, _, address = text.partition("/")
+    host = address.partition("?")[0].partition("#")[0].rpartition(":")[0].strip("[]")
+    if protocol not in ("tcp", "tls"):
+        return False
+    try:
+        return ip_address(host).is_loopback
+    except ValueError:
+        return host in LOCAL_NAMES
