@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from comms import link
+from comms.codec import MAX_FRAME_BYTES
 from comms.disturbance import CALM, Disturbance
 from comms.keys import Keys, sender
 from comms.session import Bus, Put
@@ -28,13 +29,17 @@ class LinkModel:
 
 @dataclass(slots=True)
 class AirCount:
-    """What happened to frames so far, counted per frame (sent, bytes) and per frame and receiver (the rest)."""
+    """What happened to frames so far, counted per frame (sent, bytes, refused) and per frame and receiver (the rest).
+
+    refused: nobody of this mission spoke it, or it is too long to be a frame.
+    """
 
     sent: int = 0
     bytes: int = 0
     delivered: int = 0
     out_of_range: int = 0
     lost: int = 0
+    refused: int = 0
 
 
 class Air:
@@ -71,8 +76,10 @@ class Air:
 
     def _hear(self, key: str, payload: bytes) -> None:
         src = sender(key)
-        if src is not None and src < self._n_agents:
-            self._spoken.append((src, payload))
+        if src is None or src >= self._n_agents or len(payload) > MAX_FRAME_BYTES:
+            self.count.refused += 1
+            return
+        self._spoken.append((src, payload))
 
     def carry(self, tick: int, positions_m: Sequence[tuple[float, float]], disturbance: Disturbance = CALM) -> int:
         """Deliver what must be heard at tick + 1. Returns the number of deliveries.

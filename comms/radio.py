@@ -11,6 +11,7 @@ from comms.keys import Keys, sender
 from comms.messages import Frame
 from comms.session import Bus
 
+EARLY_S = 0.5  # clocks of computers that keep time by themselves may differ so much
 MAX_WAITING = 4096  # frames; beyond it the oldest go: a radio that nobody drains must not eat the memory
 
 # Within one process a frame reaches several agents as the same bytes: decode it once.
@@ -24,7 +25,13 @@ class RadioCount:
     accepted: int = 0
     bad: int = 0  # not a frame, or not from whom its key says
     stale: int = 0  # older than its own time to live
+    early: int = 0  # from the future: what it claims would hold until then
     replayed: int = 0  # sequence number not above the last one heard from that sender
+
+    @property
+    def refused(self) -> int:
+        """All that was not believed."""
+        return self.bad + self.stale + self.early + self.replayed
 
 
 class Radio:
@@ -36,7 +43,7 @@ class Radio:
         self._arrived: deque[tuple[str, bytes]] = deque(maxlen=MAX_WAITING)
         self._last_seq: dict[int, int] = {}
         self.count = RadioCount()
-        bus.subscribe(keys.every_rx(uid), lambda key, payload: self._arrived.append((key, payload)))
+        bus.subscribe(keys.every_rx(uid), self._hear)
 
     @property
     def waiting(self) -> int:
@@ -62,12 +69,18 @@ class Radio:
                 self.count.bad += 1
             elif now_s - frame.sent_at_s > frame.ttl_s:
                 self.count.stale += 1
+            elif frame.sent_at_s - now_s > EARLY_S:
+                self.count.early += 1
             else:
                 frames.append(frame)
         frames.sort(key=_by_sender)
         fresh = [frame for frame in frames if self._is_new(frame)]
         self.count.accepted += len(fresh)
         return fresh
+
+    def _hear(self, key: str, payload: bytes) -> None:
+        # What is too long to be a frame is not kept: it counts as one that is none.
+        self._arrived.append((key, payload if len(payload) <= codec.MAX_FRAME_BYTES else b""))
 
     def _is_new(self, frame: Frame) -> bool:
         if frame.seq <= self._last_seq.get(frame.src, -1):

@@ -43,10 +43,11 @@ class TargetTruth:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Totals:
-    """What went over the air and over MAVLink since power-on, of all agents together.
+    """What went over the air and over MAVLink since power-on, of all agents together. It grows at its end alone.
 
     Attributes:
         radio_sent, radio_bytes: per frame. radio_delivered, radio_out_of_range, radio_lost: per frame and receiver.
+        radio_refused: what was no frame, or could not be believed.
         mavlink_sent, mavlink_received, mavlink_bad, mavlink_dropped: at the agents' ends of their links.
         vehicles_received, vehicles_bad, vehicles_dropped: at the simulated vehicles' ends.
     """
@@ -63,6 +64,7 @@ class Totals:
     vehicles_received: int = 0
     vehicles_bad: int = 0
     vehicles_dropped: int = 0
+    radio_refused: int = 0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

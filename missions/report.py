@@ -87,6 +87,7 @@ def report_of(
             "delivered": totals.radio_delivered,
             "out_of_range": totals.radio_out_of_range,
             "lost": totals.radio_lost,
+            "refused": totals.radio_refused,
             "bytes": totals.radio_bytes,
         },
         "mavlink": {
@@ -180,7 +181,7 @@ def _lines(report: Report) -> Mapping[str, str]:
         "help": f"{helped['calls']} calls, {helped['answered']} answered, {helped['captured']} captured, "
         f"{helped['taken_over']} taken over",
         "radio": f"{radio['sent']} frames sent, {radio['delivered']} delivered, {radio['out_of_range']} out of range, "
-        f"{radio['lost']} lost, {radio['bytes'] / 1e6:.1f} MB",
+        f"{radio['lost']} lost, {radio['refused']} refused, {radio['bytes'] / 1e6:.1f} MB",
         "mavlink": f"{mavlink['sent']} sent, {mavlink['received']} received, {mavlink['bad']} bad, "
         f"{mavlink['dropped']} dropped",
     }

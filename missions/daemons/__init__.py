@@ -10,5 +10,6 @@ Each is a page of shell around the code that runs in one process: `world` around
 `missions.sides.agent`, `record` around `missions.recording`. `crew` is the barrier between world and agents, `feed` the
 way from the world to the recorder, `wire` their messages, `ending` how they are asked to end, `log` what they say.
 `processes` is which of them a launch runs, `launcher` runs them. `fleet` is how people speak to vehicles under way, and
-`orders` what these make of it. `verbs`, `arguments` and `options` are their command lines.
+`orders` what these make of it. `issue` makes the credentials by which they know each other, `security` asks for them.
+`verbs`, `arguments` and `options` are their command lines.
 """

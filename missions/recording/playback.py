@@ -148,7 +148,7 @@ def _observations(table: Table, facts: Facts) -> list[Observation]:
                 coverage_mean=mean,
                 utilization=None if mean is None else mean * facts.targets / facts.agents,
                 tick_late_s=late.get(tick, [0.0])[0],
-                totals=Totals(**dict(zip(ledger.TOTAL_NAMES, totals[row], strict=True))),
+                totals=Totals(**dict(zip(ledger.TOTAL_NAMES, totals[row], strict=False))),  # older ones have fewer
                 events=said.get(tick, ()),
             )
         )

@@ -125,6 +125,7 @@ class AgentSide:
             spoke=spoke,
             ready=state.ready,
             unheard=abandoned or (state.link_lost and state.phase is PilotPhase.FAILED),
+            refused=self.computer.radio.count.refused,
             pilot=_count([pilot.endpoint], beside=self._former),
             vehicle=_count(
                 [channel.endpoint for channel in self.vehicle.channels]

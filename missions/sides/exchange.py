@@ -57,6 +57,7 @@ class Done(msgspec.Struct, frozen=True, kw_only=True, array_like=True):
         spoke: it has sent a frame. ready: on its layer, waiting for the mission.
         unheard: its pilot has given up and its vehicle is not heard: it will not end otherwise.
         pilot, vehicle: MAVLink so far, of the agent and of its vehicle if that is simulated.
+        refused: frames that its radio has not believed so far.
         leaves: it has landed, and is asked to end: nobody need wait for it any longer.
         fingerprint: in the first one, of the mission that it was given.
     """
@@ -70,5 +71,6 @@ class Done(msgspec.Struct, frozen=True, kw_only=True, array_like=True):
     unheard: bool = False
     pilot: LinkCount = LinkCount()
     vehicle: LinkCount = LinkCount()
+    refused: int = 0
     leaves: bool = False
     fingerprint: str = ""

@@ -161,6 +161,7 @@ class WorldSide:
             radio_delivered=count.delivered,
             radio_out_of_range=count.out_of_range,
             radio_lost=count.lost,
+            radio_refused=count.refused + sum(done.refused for done in dones),
             radio_bytes=count.bytes,
             mavlink_sent=sum(end.sent for end in pilots),
             mavlink_received=sum(end.received for end in pilots),

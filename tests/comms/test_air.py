@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 import pytest
 
 from comms.air import Air, LinkModel
-from comms.codec import encode
+from comms.codec import MAX_FRAME_BYTES, encode
 from comms.keys import Keys, sender
 from comms.link import delay_ticks, survives
 from comms.messages import Frame
@@ -109,6 +109,46 @@ def test_what_cannot_be_believed_is_counted_and_dropped(bus: Bus) -> None:
     put(encode(frame(1, seq=9)))
     assert radio.drain(0.6) == []
     assert radio.count.stale == 1
+
+
+TOO_LONG = encode(frame(1, seq=7)) + bytes(MAX_FRAME_BYTES)
+NAN = encode(frame(1, seq=7)).replace(b"\xcd\x27\x10", b"\xcb\x7f\xf8" + bytes(6))  # 10 m up, as a double that is none
+
+
+@pytest.mark.parametrize(
+    ("wire", "reason"),
+    [
+        (TOO_LONG, "bad"),
+        (NAN, "bad"),
+        (encode(frame(2, seq=7)), "bad"),
+        (encode(frame(1, seq=7, sent_at_s=10.501)), "early"),
+        (encode(frame(1, seq=7, sent_at_s=9.4)), "stale"),
+        (encode(frame(1, seq=5, sent_at_s=10.0)), "replayed"),
+    ],
+    ids=["too long", "not a number", "of somebody else", "of the future", "of the past", "replayed"],
+)
+def test_a_hostile_frame_is_counted_and_changes_nothing(bus: Bus, wire: bytes, reason: str) -> None:
+    radio = Radio(bus, keys=KEYS, uid=0)
+    put = bus.publisher(KEYS.rx(0, 1))
+    put(encode(frame(1, seq=5, sent_at_s=9.9)))
+    assert len(radio.drain(10.0)) == 1
+    assert wire != encode(frame(1, seq=7))
+    put(wire)
+    assert radio.drain(10.0) == []
+    assert (getattr(radio.count, reason), radio.count.refused) == (1, 1)
+    put(
+        encode(frame(1, seq=6, sent_at_s=10.4))
+    )  # what it says itself is believed as before, from a clock that is ahead
+    assert [heard.seq for heard in radio.drain(10.0)] == [6]
+
+
+def test_who_shouts_is_not_carried(bus: Bus) -> None:
+    air, radios = swarm(bus, 2)
+    for _ in range(3):
+        bus.publisher(KEYS.tx(1))(TOO_LONG)
+    assert air.waiting == 0
+    assert everybody_speaks(air, radios, [(0.0, 0.0), (1.0, 0.0)]) == [[1], [0]]
+    assert (air.count.sent, air.count.refused) == (2, 3)
 
 
 def test_a_stranger_on_the_air_is_not_carried(bus: Bus) -> None:
