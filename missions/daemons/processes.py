@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from comms.credentials import agents_name
+from comms.keys import RECORDER, WORLD
 from missions.mission import Mission
 
 if TYPE_CHECKING:
@@ -20,10 +22,13 @@ COMMAND = (sys.executable, "-m", "missions.cli")
 class ProcessPlan:
     """One process: its name, the words of its `swarm` command, and how often it is started again when it fails.
 
+    On a secured network it is known by its `identity`.
+
     The mission is over when a `vital` one ends.
     """
 
     name: str
+    identity: str
     words: tuple[str, ...]
     restarts: int = 0
     vital: bool = False
@@ -68,6 +73,7 @@ def plan_processes(mission: Mission, options: ProcessOptions) -> tuple[ProcessPl
     plans = [
         ProcessPlan(
             name="world",
+            identity=WORLD,
             words=(
                 "world",
                 *options.mission_words,
@@ -87,11 +93,11 @@ def plan_processes(mission: Mission, options: ProcessOptions) -> tuple[ProcessPl
         last = min(first + options.per_process, mission.agents.count) - 1
         uids = str(first) if first == last else f"{first}-{last}"
         name = f"agent {uids}" if first == last else f"agents {uids}"
-        plans.append(
-            ProcessPlan(name=name, words=("agent", *connect, "--leash", "--id", uids), restarts=options.restarts)
-        )
+        identity, words = agents_name((first, last)), ("agent", *connect, "--leash", "--id", uids)
+        plans.append(ProcessPlan(name=name, identity=identity, words=words, restarts=options.restarts))
     if options.record is not None:
-        plans.append(ProcessPlan(name="recorder", words=("record", *connect, "--record", str(options.record))))
+        words = ("record", *connect, "--record", str(options.record))
+        plans.append(ProcessPlan(name="recorder", identity=RECORDER, words=words))
     return tuple(plans)
 
 

@@ -105,6 +105,7 @@ def processes(mission: Mission, options: argparse.Namespace) -> tuple[ProcessPla
     speed = given.get("speed")
     speed_of(mission, speed)
     check_listening(options.listen, keys=options.keys, insecure=options.insecure)
+    endpoint_of(options.listen, keys=options.keys)
     settings = ProcessOptions(
         mission_words=tuple(_mission_words(options)),
         endpoint=options.listen,
@@ -117,7 +118,10 @@ def processes(mission: Mission, options: argparse.Namespace) -> tuple[ProcessPla
         keys=options.keys,
         insecure=options.insecure,
     )
-    return plan_processes(mission, settings)
+    plans = plan_processes(mission, settings)
+    for plan in plans:
+        credentials_of(options.keys, plan.identity)
+    return plans
 
 
 def _mission_words(options: argparse.Namespace) -> Iterator[str]:

@@ -243,6 +243,8 @@ def test_credentials_are_for_nobody_elses_eyes_and_are_kept(tmp_path: Path, caps
         (("launch", "narrow", "--processes", "--listen", "tcp/10.0.0.5:7447"), "allowed: --keys DIR"),
         (("plan", "narrow", "--processes", "--listen", "tcp/swarm.example:7447"), "allowed: --keys DIR"),
         (("world", "narrow", "--listen", "tls/127.0.0.1:7447"), "got no keys; allowed: --keys DIR"),
+        (("launch", "narrow", "--processes", "--listen", "tls/127.0.0.1:7447"), "got no keys; allowed: --keys DIR"),
+        (("launch", "narrow", "--processes", "2", "--keys", "FOLDER"), "has no agents-0-1.pem, agents-0-1.key"),
         (("world", "narrow", "--keys", "FOLDER"), "no certificate of agent 3, 4"),
         (("agent", "narrow", "--id", "7", "--keys", "FOLDER"), "has no agent-7.pem, agent-7.key"),
         (("agent", "narrow", "--id", "0-1", "--keys", "FOLDER"), "has no agents-0-1.pem, agents-0-1.key"),
