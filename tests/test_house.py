@@ -23,6 +23,7 @@ FENCES = {
     "numpy": {"missions/recording/", "missions/review/pictures.py", "missions/study/", "missions/train"},
     "torch": {"missions/train"},
     "numba": {"missions/study/"},
+    "cryptography": {"missions/daemons/issue.py"},
 }
 
 
