@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import socket
+from abc import abstractmethod
 from collections.abc import Callable
 from functools import partial
 from typing import Any, Self
@@ -46,8 +47,9 @@ class _Datagrams(Closing):
             self._socket.close()
             self._socket = None
 
+    @abstractmethod
     def _begin(self, opened: socket.socket, address: Peer) -> None:
-        raise NotImplementedError
+        """Bind the open socket to the address, or connect it."""
 
     def _receive(self) -> list[tuple[Peer, bytes]]:
         """The datagrams that wait, each source's up to its share."""

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Container
 from math import isfinite
 from typing import Any, Generic, NamedTuple, TypeVar
+
+from pymavlink.dialects.v20 import ardupilotmega as dialect
 
 from vehicle_sim.autopilot.core import Autopilot
 from vehicle_sim.autopilot.plans.item import Item
@@ -38,3 +41,17 @@ class Request(NamedTuple, Generic[A]):
         """Parameter `index` (from 1) as an integer; -1 if it is none."""
         value = self.params[index - 1]
         return int(value) if isfinite(value) and 0.0 <= value < 2.0**32 else -1
+
+    def tell_interval(self, known: Container[int]) -> bool:
+        """GET_MESSAGE_INTERVAL: reply with how often parameter 1's message flows here. False if there is no such id.
+
+        Args:
+            known: the messages that can be reported; the interval of others is 0, of one that does not flow -1.
+        """
+        message_id = self.number(1)
+        if not 0 <= message_id <= 65535:
+            return False
+        period_s = self.streams.period_s(message_id)
+        period_us = 0 if message_id not in known else -1 if period_s is None else round(period_s * 1e6)
+        self.replies.append(dialect.MAVLink_message_interval_message(message_id, period_us))
+        return True

@@ -9,8 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from enum import IntEnum
 
-from pymavlink.dialects.v20 import ardupilotmega as dialect
-
 from comms.frames import geo_from_enu, swap_enu_ned
 from vehicle_sim.autopilot.ardupilot.copter import Copter
 from vehicle_sim.autopilot.ardupilot.modes import Mode
@@ -110,13 +108,7 @@ def _set_message_interval(request: Request[Copter]) -> Result:
 
 
 def _get_message_interval(request: Request[Copter]) -> Result:
-    message_id = request.number(1)
-    if not 0 <= message_id <= 65535:
-        return Result.FAILED
-    period_s = request.streams.period_s(message_id)
-    period_us = 0 if message_id not in BUILDERS else -1 if period_s is None else round(period_s * 1e6)
-    request.replies.append(dialect.MAVLink_message_interval_message(message_id, period_us))
-    return Result.ACCEPTED
+    return Result.ACCEPTED if request.tell_interval(BUILDERS) else Result.FAILED
 
 
 def _request_message(request: Request[Copter]) -> Result:

@@ -10,8 +10,6 @@ from enum import IntEnum
 from math import isfinite
 from typing import Any
 
-from pymavlink.dialects.v20 import ardupilotmega as dialect
-
 from comms.frames import geo_from_enu, swap_enu_ned
 from vehicle_sim.autopilot.plans.item import Item
 from vehicle_sim.autopilot.px4.commander import Commander
@@ -228,13 +226,7 @@ def _set_message_interval(request: Request[Commander]) -> Result:
 
 
 def _get_message_interval(request: Request[Commander]) -> Result:
-    message_id = request.number(1)
-    if not 0 <= message_id <= 65535:
-        return Result.DENIED
-    period_s = request.streams.period_s(message_id)
-    period_us = 0 if message_id not in BUILDERS else -1 if period_s is None else round(period_s * 1e6)
-    request.replies.append(dialect.MAVLink_message_interval_message(message_id, period_us))
-    return Result.ACCEPTED
+    return Result.ACCEPTED if request.tell_interval(BUILDERS) else Result.DENIED
 
 
 def _request_message(request: Request[Commander]) -> Result:
