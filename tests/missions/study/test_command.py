@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from missions import cli
 from missions.cli import BAD_INPUT, DONE, STOPPED, main
+from missions.commands import command as verb
 from missions.overrides import Override
 from missions.study import command
 from missions.study.command import StudyOptions
@@ -85,7 +85,7 @@ def test_bad_input_exits_2_and_says_why(
 def test_without_the_extra_it_says_how_to_get_it(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(cli, "find_spec", lambda name: None if name == "numba" else object())
+    monkeypatch.setattr(verb, "find_spec", lambda name: None if name == "numba" else object())
     assert main(["study", "figure-11"]) == BAD_INPUT
     assert capsys.readouterr().err == (
         "swarm study needs the `study` extra: pip install 'swarm-mission-stack[study]' (no module 'numba')\n"

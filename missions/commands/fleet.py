@@ -1,0 +1,28 @@
+"""`swarm status`, `hold`, `resume`, `return`, `land`, `stop`: people speak to vehicles that are under way."""
+
+from __future__ import annotations
+
+import argparse
+from functools import partial
+
+from missions.commands.command import Command
+from missions.daemons.arguments import FLEET as VERBS
+from missions.daemons.arguments import add_fleet, fleet_examples
+
+
+def _tell(verb: str, options: argparse.Namespace) -> int:
+    from missions.daemons import verbs
+
+    return verbs.fleet(verb, options)
+
+
+FLEET = tuple(
+    Command(
+        name=name,
+        summary=about,
+        examples=fleet_examples(name),
+        add_options=add_fleet,
+        run=partial(_tell, name),
+    )
+    for name, about in VERBS.items()
+)
