@@ -1,4 +1,8 @@
-"""The colors of what agents do and of how serious a line is, everywhere: recording, plots, terminal. 0xRRGGBBAA."""
+"""The colors of what agents do, everywhere: recording, plots, page, terminal. 0xRRGGBBAA.
+
+Areas are filled with COLORS, which words in black or white are read on. Lines and words have INKS: the same hues, of a
+lightness that is read on a white page and on a black screen, since nobody knows which of them the reader prefers.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +20,23 @@ ACTIVITY_COLORS: dict[Activity, int] = {
     Activity.LOST: 0xFF5C5CFF,
 }
 
-LEVEL_COLORS: dict[Level, int] = {Level.INFO: 0x8A9BB4FF, Level.WARNING: 0xFFB020FF, Level.ERROR: 0xFF5C5CFF}
+ACTIVITY_INKS: dict[Activity, int] = {
+    Activity.PREPARING: 0x7190B1FF,
+    Activity.TAKEN_OVER: 0xD665A9FF,
+    Activity.EXPLORE: 0x338FEEFF,
+    Activity.FOLLOW: 0x10A16AFF,
+    Activity.CALLING: 0xD27300FF,
+    Activity.HELPING: 0xB769F0FF,
+    Activity.RETURNING: 0x838DA0FF,
+    Activity.LANDED: 0x707B8BFF,
+    Activity.LOST: 0xFA4E51FF,
+}
+
+LEVEL_INKS: dict[Level, int] = {
+    Level.INFO: 0x7C8EA8FF,
+    Level.WARNING: ACTIVITY_INKS[Activity.CALLING],
+    Level.ERROR: ACTIVITY_INKS[Activity.LOST],
+}
 
 
 def hex_color(color: int) -> str:

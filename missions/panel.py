@@ -13,14 +13,14 @@ from rich.table import Table
 from rich.text import Text
 
 from comms.status import Activity
-from missions.colors import ACTIVITY_COLORS, hex_color
+from missions.colors import ACTIVITY_COLORS, ACTIVITY_INKS, hex_color
 from missions.observation import Phase
 
 _BLOCKS = "▁▂▃▄▅▆▇█"
 _BAR_COLUMNS = 40
 _WIDTH = 84
 _GOOD, _BAD, _WARN = (
-    hex_color(ACTIVITY_COLORS[activity]) for activity in (Activity.FOLLOW, Activity.LOST, Activity.CALLING)
+    hex_color(ACTIVITY_INKS[activity]) for activity in (Activity.FOLLOW, Activity.LOST, Activity.CALLING)
 )
 
 
@@ -107,9 +107,8 @@ def _agents(vitals: Vitals) -> Group:
     share = max(1, -(-len(vitals.activities) // _BAR_COLUMNS))
     width = max(1, min(4, _BAR_COLUMNS // max(1, len(vitals.activities))))
     for activity, count in _counted(vitals.activities):
-        color = hex_color(ACTIVITY_COLORS[activity])
-        lane.append("█" * max(1, round(count / share)) * width, color)
-        words.append(f"{count} {activity.value}   ", color)
+        lane.append("█" * max(1, round(count / share)) * width, hex_color(ACTIVITY_COLORS[activity]))
+        words.append(f"{count} {activity.value}   ", hex_color(ACTIVITY_INKS[activity]))
     return Group(lane, words)
 
 
@@ -124,7 +123,7 @@ def _targets(vitals: Vitals) -> Text:
         "   ",
         (f"{vitals.calls} called for", _WARN if vitals.calls else "dim"),
         "   ",
-        (f"{vitals.helpers} helping", hex_color(ACTIVITY_COLORS[Activity.HELPING]) if vitals.helpers else "dim"),
+        (f"{vitals.helpers} helping", hex_color(ACTIVITY_INKS[Activity.HELPING]) if vitals.helpers else "dim"),
     )
 
 

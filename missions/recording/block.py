@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from comms.status import Activity
 from missions.observation import PLACES_PER_M, Observation
-from missions.recording.palette import ACTIVITY_COLORS
+from missions.recording.palette import ACTIVITY_INKS
 from missions.recording.scene import Scene
 
 Floats = npt.NDArray[np.float32]
@@ -62,7 +62,7 @@ class Block:
     @cached_property
     def colors(self) -> Colors:
         """(K, N): each agent in the color of what it does."""
-        rows = [[ACTIVITY_COLORS[activity] for activity in row] for row in self.activities]
+        rows = [[ACTIVITY_INKS[activity] for activity in row] for row in self.activities]
         return np.array(rows, dtype=np.uint32).reshape(len(self), self.scene.n_agents)
 
     @cached_property

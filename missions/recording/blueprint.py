@@ -7,7 +7,6 @@ from typing import Any
 import rerun as rr
 import rerun.blueprint as rrb
 
-from missions.recording import palette
 from missions.recording.event_view import event_log
 from missions.recording.eye import fitting_eye
 from missions.recording.minds_view import knowledge
@@ -16,13 +15,16 @@ from missions.recording.scene import Scene
 from missions.recording.tape import TICK_LINE, TIME_LINE
 
 _TRAIL_S, _MAP_TRAIL_S = 20.0, 60.0
+# Who hears whom in a larger swarm hides everything else in space; the graph still shows it, and an eye in the list.
+_LINKED_AGENTS = 40
+_LEGEND_AGENTS = 10
 
 
 def blueprint(scene: Scene, *, live: bool) -> rrb.Blueprint:
     """Tabs, from the mission to the raw numbers. A live viewer follows the newest tick; a review starts paused."""
     play_state = rrb.components.PlayState.Following if live else rrb.components.PlayState.Paused
     return rrb.Blueprint(
-        rrb.Tabs(_mission(scene), knowledge(scene), _telemetry(), _map(), _raw(), active_tab=0),
+        rrb.Tabs(_mission(scene), knowledge(scene), _telemetry(scene), _map(), _raw(), active_tab=0),
         rrb.BlueprintPanel(state="collapsed"),
         rrb.SelectionPanel(state="collapsed"),
         rrb.TimePanel(state="collapsed", timeline=TIME_LINE, play_state=play_state),
@@ -35,11 +37,11 @@ def _mission(scene: Scene) -> rrb.Container:
     return rrb.Horizontal(
         rrb.Vertical(
             _swarm(scene),
-            rrb.Horizontal(_coverage(), _radio(scene), column_shares=[5, 4]),
+            rrb.Horizontal(_coverage(), _radio(scene), column_shares=[5, 3]),
             row_shares=[5, 2],
         ),
         rrb.Vertical(_lanes(), event_log("/log", name="Events"), row_shares=[5, 3]),
-        column_shares=[19, 10],
+        column_shares=[3, 2],
         name="Mission",
     )
 
@@ -49,7 +51,6 @@ def _swarm(scene: Scene) -> rrb.View:
     return rrb.Spatial3DView(
         origin="/world",
         name="Swarm",
-        background=rrb.Background(color=palette.BACKGROUND),
         line_grid=rrb.LineGrid3D(visible=False),
         eye_controls=rrb.EyeControls3D(
             kind=rrb.Eye3DKind.Orbital,
@@ -57,8 +58,20 @@ def _swarm(scene: Scene) -> rrb.View:
             look_target=target,
             eye_up=(0.0, 0.0, 1.0),
         ),
-        overrides={"/world/agents/trail": [rrb.VisibleTimeRanges(_lately(_TRAIL_S)), rr.LineStrips3D.from_fields()]},
+        overrides={
+            "/world/agents/trail": [rrb.VisibleTimeRanges(_lately(_TRAIL_S)), rr.LineStrips3D.from_fields()],
+            "/world/links": [
+                rrb.EntityBehavior(visible=scene.n_agents <= _LINKED_AGENTS),
+                rr.LineStrips3D.from_fields(),
+            ],
+        },
     )
+
+
+def whole_time() -> rrb.TimeAxis:
+    """All of the recording, and not what is near the cursor."""
+    boundary = rrb.TimeRangeBoundary
+    return rrb.TimeAxis(view_range=rrb.TimeRange(start=boundary.infinite(), end=boundary.infinite()))
 
 
 def _lately(seconds: float) -> list[rrb.VisibleTimeRange]:
@@ -72,6 +85,7 @@ def _coverage() -> rrb.View:
         origin="/metrics",
         contents=["/metrics/coverage", "/metrics/floor"],
         name="Coverage",
+        axis_x=whole_time(),
         axis_y=rrb.ScalarAxis(range=(0.0, 1.02), zoom_lock=True),
         plot_legend=rrb.PlotLegend(rrb.Corner2D.RightBottom),
     )
@@ -91,19 +105,21 @@ def _lanes() -> rrb.View:
     return rrb.StateTimelineView(origin="/agents", contents="/agents/**", name="What each agent does")
 
 
-def _telemetry() -> rrb.Container:
+def _telemetry(scene: Scene) -> rrb.Container:
+    # A legend of many agents covers their lines, which tell their names when pointed at.
+    named = rrb.PlotLegend(rrb.Corner2D.LeftTop, visible=scene.n_agents <= _LEGEND_AGENTS)
     views = [
-        rrb.TimeSeriesView(origin=f"/telemetry/{what}", name=name)
-        for what, name in (
-            ("altitude", "Altitude, m"),
-            ("speed", "Speed, m/s"),
-            ("battery", "Battery, share left"),
-            ("tick_late", "Tick lateness, s"),
+        rrb.TimeSeriesView(origin=path, name=name, axis_x=whole_time(), plot_legend=legend)
+        for path, name, legend in (
+            ("/telemetry/altitude", "Altitude, m", named),
+            ("/telemetry/speed", "Speed, m/s", named),
+            ("/telemetry/battery", "Battery, share left", named),
+            ("/telemetry/tick_late", "Tick lateness, s", None),
+            ("/metrics/utilization", "Utilization, targets seen per agent", None),
+            ("/metrics/net", "Radio, frames a second", None),
         )
     ]
-    utilization = rrb.TimeSeriesView(origin="/metrics/utilization", name="Utilization")
-    net = rrb.TimeSeriesView(origin="/metrics/net", name="Radio, frames a second")
-    return rrb.Grid(*views, utilization, net, grid_columns=2, name="Telemetry")
+    return rrb.Grid(*views, grid_columns=2, name="Telemetry")
 
 
 def _map() -> rrb.View:

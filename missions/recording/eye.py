@@ -15,9 +15,10 @@ Point = tuple[float, float, float]
 
 # The viewer's own field of view, and the shape of the 3D view in the blueprint on a wide screen.
 _HALF_HEIGHT = tan(radians(55.0) / 2)
-_ASPECT = 1.8
+_ASPECT = 1.65
 _PITCH = radians(42.0)
-_MARGIN = 1.05
+_MARGIN = 1.04
+_INNER = 0.75
 _PLAN_MARGIN = 1.1
 
 _AHEAD = np.array((0.0, cos(_PITCH), -sin(_PITCH)))
@@ -31,7 +32,8 @@ def fitting_eye(scene: Scene) -> tuple[Point, Point]:
     places when the width alone decides.
     """
     edge = on_ground(shapes.edge_line(scene.arena)).astype(np.float64)
-    corners = np.concatenate((edge, edge + np.array((0.0, 0.0, scene.ceiling_m))))
+    # Nobody flies high above the very edge for long.
+    corners = np.concatenate((edge, _INNER * edge + np.array((0.0, 0.0, scene.ceiling_m))))
     slides = np.linspace(-1.0, 1.0, 201) * scene.size_m
     distances = np.array([_distance_m(corners - slide * _UP) for slide in slides])
     distance = distances.min()

@@ -216,9 +216,7 @@ def _blueprint(kinds: Collection[str]) -> rrb.Blueprint:
         for place, chart in enumerate(_CHARTS)
         if chart.kind in kinds
     ]
-    space = rrb.Spatial3DView(
-        origin="/world", name="Where it flew", background=rrb.Background(color=palette.BACKGROUND)
-    )
+    space = rrb.Spatial3DView(origin="/world", name="Where it flew")
     lanes = rrb.StateTimelineView(origin="/vehicles", contents="/vehicles/**", name="Flight modes")
     flight = rrb.Horizontal(
         rrb.Vertical(space, rrb.Grid(*charts, grid_columns=2), row_shares=[3, 2]),

@@ -79,14 +79,14 @@ def _points(scene: Scene, told: Sequence[_Told]) -> rr.ComponentColumnList:
         status, known = one.status, one.knowledge
         places += [one.me, *(b.place_m for b in known.beliefs), *(m.place_m for m in known.mates)]
         colors += [
-            palette.ACTIVITY_COLORS[status.activity],
+            palette.ACTIVITY_INKS[status.activity],
             *(_color(status, belief) for belief in known.beliefs),
             *(palette.MATE for _ in known.mates),
         ]
         labels += [
             scene.agent_names[status.uid],
-            *(f"T{belief.target}{_age(belief.age_s)}" for belief in known.beliefs),
-            *(f"A{mate.uid}{_age(mate.age_s)}" for mate in known.mates),
+            *(_dated(f"T{belief.target}", belief.age_s) for belief in known.beliefs),
+            *(_dated(f"A{mate.uid}", mate.age_s) for mate in known.mates),
         ]
         counts.append(1 + len(known.beliefs) + len(known.mates))
     points = rr.Points3D.columns(positions=_flat(places), colors=np.array(colors, dtype=np.uint32), labels=labels)
@@ -101,7 +101,7 @@ def _lines(told: Sequence[_Told], range_m: float) -> rr.ComponentColumnList:
     lines: list[npt.NDArray[np.float64]] = []
     colors, counts = [], []
     for one in told:
-        own = palette.ACTIVITY_COLORS[one.status.activity]
+        own = palette.ACTIVITY_INKS[one.status.activity]
         pairs = [(belief, truth) for belief in one.knowledge.beliefs if (truth := one.truth(belief)).present]
         lines += [one.me + range_m * _CIRCLE, _arrow(one.me, one.knowledge.wanted_m_s)]
         lines += [np.array((belief.place_m, (truth.x_m, truth.y_m))) for belief, truth in pairs]
@@ -129,14 +129,19 @@ def _flat(places: npt.ArrayLike) -> Floats:
 def _color(status: AgentStatus, belief: Belief) -> int:
     """What a belief means to the agent: its own, to be helped, called for, a mate's, seen, or a memory."""
     if belief.target == status.helping:
-        return palette.ACTIVITY_COLORS[Activity.HELPING]
+        return palette.ACTIVITY_INKS[Activity.HELPING]
     if belief.caller is not None:
-        return palette.ACTIVITY_COLORS[Activity.CALLING]
+        return palette.ACTIVITY_INKS[Activity.CALLING]
     if belief.owner == status.uid:
-        return palette.ACTIVITY_COLORS[Activity.FOLLOW]
+        return palette.ACTIVITY_INKS[Activity.FOLLOW]
     if belief.owner is not None:
         return palette.TAGGED
     return palette.SEEN if belief.sensed else palette.REMEMBERED
+
+
+def _dated(name: str, age_s: float) -> str:
+    """A label in space, which is to be short."""
+    return name if age_s < _FRESH_S else f"{name} · {age_s:.0f} s"
 
 
 def _age(age_s: float) -> str:

@@ -30,21 +30,22 @@ def knowledge(scene: Scene) -> rrb.Container:
 def _mind(scene: Scene, name: str) -> rrb.Container:
     page = rrb.TextDocumentView(origin=f"/knowledge/{name}", name="What it knew, and why it went there")
     lane = rrb.StateTimelineView(origin=f"/agents/{name}", name="What it did")
-    words = rrb.Vertical(page, lane, event_log(f"/log/{name}", name="What it said"), row_shares=[6, 1.3, 3])
+    words = rrb.Vertical(page, lane, event_log(f"/log/{name}", name="What it said"), row_shares=[6, 1.7, 3])
     return rrb.Horizontal(_beliefs(scene, name), words, column_shares=[5, 4], name=name)
 
 
 def _beliefs(scene: Scene, name: str) -> rrb.View:
     position, target = eye_above(scene)
-    truth = rr.Points3D.from_fields(colors=[palette.TRUE], radii=[-2.2], show_labels=False)
+    agents, targets = (
+        rr.Points3D.from_fields(colors=[palette.TRUE], radii=[radius], show_labels=False) for radius in (-1.5, -2.5)
+    )
     return rrb.Spatial3DView(
         origin="/",
         contents=[f"/knowledge/{name}", "/world/arena/**", "/world/agents/body", "/world/targets/body"],
-        name="Believed in color, true in gray",
-        background=rrb.Background(color=palette.BACKGROUND),
+        name="Believed in color, with its age; true in gray, targets larger",
         line_grid=rrb.LineGrid3D(visible=False),
         eye_controls=rrb.EyeControls3D(
             kind=rrb.Eye3DKind.Orbital, position=position, look_target=target, eye_up=(0.0, 1.0, 0.0)
         ),
-        overrides={"/world/agents/body": truth, "/world/targets/body": truth},
+        overrides={"/world/agents/body": agents, "/world/targets/body": targets},
     )

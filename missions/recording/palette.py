@@ -1,42 +1,49 @@
-"""The colors of a recording: one for each activity, the same in every view. 0xRRGGBBAA throughout."""
+"""The colors of a recording: one for each activity, the same in every view. 0xRRGGBBAA throughout.
+
+The background is the viewer's own, black or white as its user likes: what is drawn on it is read on both.
+"""
 
 from __future__ import annotations
 
+from comms.status import Activity
 from missions.colors import ACTIVITY_COLORS as ACTIVITY_COLORS
-from missions.colors import LEVEL_COLORS as LEVEL_COLORS
+from missions.colors import ACTIVITY_INKS as ACTIVITY_INKS
+from missions.colors import LEVEL_INKS as LEVEL_INKS
 
-TAGGED = 0xFFE066FF  # ring of a target that somebody owns
-SEEN = 0xD8BE58B0  # ring of a target that is seen, and nobody's
-UNSEEN = 0xFF5C5CFF  # ring and body of a target out of sight
-TARGET = 0xFFF3C4FF
+_GREEN, _RED = ACTIVITY_INKS[Activity.FOLLOW], ACTIVITY_INKS[Activity.LOST]
+_BLUE, _ORANGE = ACTIVITY_INKS[Activity.EXPLORE], ACTIVITY_INKS[Activity.CALLING]
 
-MATE = 0x9FB3C8FF  # another agent, as one agent believes it
-REMEMBERED = 0x8A94A6FF  # a target that an agent only remembers
-TRUE = 0xD5DCE8FF  # what is so, behind what is believed
+TAGGED = 0xBF9A00FF  # ring of a target that somebody owns
+SEEN = 0x8F8556FF  # ring of a target that is seen, and nobody's
+UNSEEN = _RED  # ring and body of a target out of sight
+TARGET = 0xB08A1EFF
 
-BACKGROUND = 0x06080EFF
-GROUND = 0x090D17FF  # never seen
-GROUND_REMEMBERED = 0x0F233FFF  # seen long ago
-GROUND_FRESH = 0x1D5596FF  # seen now
-GRID = 0x50689060
-EDGE = 0x7D95BFFF
-LINK = 0xA9C0E04C
-BROKEN = 0xFF5C5CB0  # a frame that was lost on its way
+MATE = 0x7A8FA4FF  # another agent, as one agent believes it
+REMEMBERED = 0x8F8598FF  # a target that an agent only remembers
+TRUE = 0x8C96A5FF  # what is so, behind what is believed
 
-COVERAGE_NOW = 0x3DDC9799
-COVERAGE_MEAN = 0xE0559BFF  # neither black nor white: it is seen on a light page and on a dark one
+# Of the ground, which lets the rest of the background through.
+GROUND_SHARE = 0.35
+GROUND = 0x22272FFF  # never seen
+GROUND_REMEMBERED = 0x1F4C86FF  # seen long ago
+GROUND_FRESH = 0x0F7BFFFF  # seen now
+GRID = 0x4C5664FF
+EDGE = 0x7088B0FF
+LINK = 0x6F7F96FF
+BROKEN = _RED  # a frame that was lost on its way
+
+COVERAGE_NOW = _GREEN
+COVERAGE_MEAN = 0xE0559BFF
 COVERAGE_FLOOR = 0x6E7A90FF
-UTILIZATION = 0xFFB020FF
-RADIO_SENT = 0x4FA3FFFF
-RADIO_DELIVERED = 0x3DDC97FF
-RADIO_LOST = 0xFF5C5CFF
+UTILIZATION = _ORANGE
+RADIO_SENT, RADIO_DELIVERED, RADIO_LOST = _BLUE, _GREEN, _RED
 RADIO_OUT_OF_RANGE = 0x6E7A90FF
-TICK_LATE = 0xFF5C5CFF
+TICK_LATE = _RED
 
 # Agents side by side in one plot, where the activity's color would say nothing about who it is.
 _SERIES = (
-    0x4FA3FFFF, 0x3DDC97FF, 0xFFB020FF, 0xC77DFFFF, 0xFF7AA2FF,
-    0x5CE1E6FF, 0xD4E157FF, 0xFF8A5CFF, 0x9AA5FFFF, 0xE0C8A0FF,
+    0x338FEEFF, 0x10A16AFF, 0xD27300FF, 0xB769F0FF, 0xE0559BFF,
+    0x169DA6FF, 0x8E9A14FF, 0xE2603BFF, 0x7C86F0FF, 0xA88A5CFF,
 )  # fmt: skip
 
 

@@ -11,10 +11,8 @@ from comms.status import Activity
 from missions.observation import Observation
 from missions.recording import palette
 from missions.recording.block import LINE_STEP_S, Block
-from missions.recording.columns import Rows, faded, pieces
+from missions.recording.columns import Rows, pieces
 from missions.recording.scene import Scene
-
-_TRACK_ALPHA = 150
 
 
 class Relations:
@@ -43,7 +41,7 @@ class Relations:
         row, agent, target = np.array(ends, dtype=np.intp).reshape(-1, 3).T
         lines = np.stack((block.positions_m[row, agent], block.targets_m[row, target]), axis=1)
         counts = np.bincount(row, minlength=len(block))
-        return pieces(lines, faded(block.colors[row, agent], _TRACK_ALPHA), counts)
+        return pieces(lines, block.colors[row, agent], counts)
 
     def _between(self, block: Block, pairs: Sequence[Sequence[tuple[int, int]]]) -> rr.ComponentColumnList:
         """A line for each pair of agents in each tick."""
@@ -64,7 +62,7 @@ class Relations:
         columns = rr.Arrows3D.columns(
             origins=origins,
             vectors=block.targets_m[row, target] - origins,
-            colors=np.full(len(answers), palette.ACTIVITY_COLORS[Activity.HELPING], dtype=np.uint32),
+            colors=np.full(len(answers), palette.ACTIVITY_INKS[Activity.HELPING], dtype=np.uint32),
             labels=[self._label(block.observations[k], helper, wanted) for k, helper, wanted in answers],
         )
         return columns.partition(np.bincount(row, minlength=len(block)))

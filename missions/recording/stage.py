@@ -82,7 +82,11 @@ def _set_ground(tape: Tape, scene: Scene) -> None:
     unit = Sizes.of(scene).unit_m
     vertices, triangles = shapes.ground_mesh(scene.arena)
     height = np.full((len(vertices), 1), -0.02 * unit, dtype=np.float32)
-    mesh = rr.Mesh3D(vertex_positions=np.hstack((vertices, height)), triangle_indices=triangles)
+    mesh = rr.Mesh3D(
+        vertex_positions=np.hstack((vertices, height)),
+        triangle_indices=triangles,
+        albedo_factor=(1.0, 1.0, 1.0, palette.GROUND_SHARE),
+    )
     tape.log_static("/world/seen", mesh)
     edge = shapes.edge_line(scene.arena)
     tape.log_static(
@@ -92,7 +96,7 @@ def _set_ground(tape: Tape, scene: Scene) -> None:
     grid = shapes.grid_lines(scene.arena)
     tape.log_static(
         "/world/arena/grid",
-        rr.LineStrips3D(on_ground(grid), colors=[palette.GRID], radii=_on_screen(0.5)),
+        rr.LineStrips3D(on_ground(grid), colors=[palette.GRID], radii=_on_screen(0.4)),
     )
 
 
@@ -134,7 +138,9 @@ def _set_lines(tape: Tape, scene: Scene) -> None:
     tape.log_static("/world/tracks", rr.LineStrips3D.from_fields(radii=_on_screen(0.8)))
     tape.log_static("/world/links", rr.LineStrips3D.from_fields(radii=_on_screen(0.5), colors=[palette.LINK]))
     tape.log_static("/world/broken", rr.LineStrips3D.from_fields(radii=_on_screen(0.9), colors=[palette.BROKEN]))
-    tape.log_static("/world/help", rr.Arrows3D.from_fields(radii=_on_screen(2.0), show_labels=True))
+    tape.log_static(
+        "/world/help", rr.Arrows3D.from_fields(radii=_on_screen(2.0), show_labels=scene.n_agents <= _NAMED_AGENTS)
+    )
 
 
 def _set_minds(tape: Tape, scene: Scene) -> None:
@@ -171,12 +177,12 @@ def _chart_styles(scene: Scene) -> dict[str, list[tuple[str, int, float]]]:
             ("mean so far", palette.COVERAGE_MEAN, 2.2),
         ],
         "/metrics/floor": [("random, standing still", palette.COVERAGE_FLOOR, 1.0)],
-        "/metrics/utilization": [("utilization", palette.UTILIZATION, 1.6)],
+        "/metrics/utilization": [("mean so far", palette.UTILIZATION, 1.6)],
         "/metrics/net": [
-            ("frames sent /s", palette.RADIO_SENT, 1.4),
-            ("frames delivered /s", palette.RADIO_DELIVERED, 1.4),
-            ("frames lost /s", palette.RADIO_LOST, 1.4),
-            ("frames out of range /s", palette.RADIO_OUT_OF_RANGE, 1.0),
+            ("sent", palette.RADIO_SENT, 1.4),
+            ("delivered", palette.RADIO_DELIVERED, 1.4),
+            ("lost", palette.RADIO_LOST, 1.4),
+            ("out of range", palette.RADIO_OUT_OF_RANGE, 1.0),
         ],
         "/telemetry/battery": agents,
         "/telemetry/altitude": agents,

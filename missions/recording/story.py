@@ -63,14 +63,14 @@ class EventLog:
         """The events."""
         said: dict[str, list[_Line]] = {name: [] for name in ("mission", *self._names)}
         for seen in block.observations:
-            said["mission"] += [_Line(seen, event, palette.LEVEL_COLORS[event.level]) for event in seen.events]
+            said["mission"] += [_Line(seen, event, palette.LEVEL_INKS[event.level]) for event in seen.events]
             for status in seen.statuses:
                 if not status.events:
                     continue
                 name = self._names[status.uid]
-                calm = palette.ACTIVITY_COLORS[status.activity]
+                calm = palette.ACTIVITY_INKS[status.activity]
                 for event in status.events:
-                    color = calm if event.level is Level.INFO else palette.LEVEL_COLORS[event.level]
+                    color = calm if event.level is Level.INFO else palette.LEVEL_INKS[event.level]
                     said[name].append(_Line(seen, event, color))
         for name, lines in said.items():
             if lines:

@@ -19,7 +19,7 @@ GROUNDED = frozenset({Activity.PREPARING, Activity.LANDED})
 
 # The trail is a chain of short pieces, each recorded once; the view shows the latest of them.
 _TRAIL_STEP_S = 0.5
-_STEM_ALPHA, _TRAIL_ALPHA, _DISC_ALPHA = 110, 130, 150
+_DISC_ALPHA = 150
 _FLAT = np.array((1, 1, 0), dtype=np.float32)
 
 
@@ -55,7 +55,7 @@ class Swarm:
         here, colors, counts = block.positions_m[flying], block.colors[flying], flying.sum(axis=1)
         below = here * _FLAT
         stems = np.stack((here, below), axis=1)
-        yield Rows("/world/agents/stem", block, pieces(stems, faded(colors, _STEM_ALPHA), counts))
+        yield Rows("/world/agents/stem", block, pieces(stems, colors, counts))
         agents = np.nonzero(flying)[1]
         if block.scene.sees_all_around:
             seen = rings(below, self._ranges_m[agents], faded(colors, _DISC_ALPHA), counts)
@@ -73,4 +73,4 @@ class Swarm:
         self._trail_end_m = ends[-1]
         steps = np.stack((starts, ends), axis=2)
         counts = np.full(len(block), self._n)
-        yield Rows("/world/agents/trail", block, pieces(steps, faded(block.colors.ravel(), _TRAIL_ALPHA), counts))
+        yield Rows("/world/agents/trail", block, pieces(steps, block.colors.ravel(), counts))

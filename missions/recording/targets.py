@@ -43,7 +43,7 @@ class Targets:
         yield Rows("/world/targets/tags", block, rings(places, self._sizes.tag_radius_m, colors, counts))
 
         called = present & block.called
-        amber = np.full(called.sum(), palette.ACTIVITY_COLORS[Activity.CALLING], dtype=np.uint32)
+        amber = np.full(called.sum(), palette.ACTIVITY_INKS[Activity.CALLING], dtype=np.uint32)
         places, counts = block.targets_m[called], called.sum(axis=1)
         yield Rows("/world/targets/calls", block, rings(places, self._sizes.call_radius_m, amber, counts))
 

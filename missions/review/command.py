@@ -9,7 +9,7 @@ from rich.console import Console
 from rich.text import Text
 
 from comms.status import Level
-from missions.colors import ACTIVITY_COLORS, LEVEL_COLORS, hex_color
+from missions.colors import ACTIVITY_INKS, LEVEL_INKS, hex_color
 from missions.problems import InputError
 from missions.report import as_json
 from missions.review.checks import judge, numbers_of
@@ -89,7 +89,7 @@ def _print_events(one: Review, console: Console, *, everything: bool) -> None:
 
 
 def _colored(line: Line) -> Text:
-    color = LEVEL_COLORS[line.level]
+    color = LEVEL_INKS[line.level]
     if line.level is Level.INFO and line.activity is not None:
-        color = ACTIVITY_COLORS[line.activity]
+        color = ACTIVITY_INKS[line.activity]
     return Text(str(line), hex_color(color))

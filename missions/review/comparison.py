@@ -11,7 +11,7 @@ from rich.table import Table
 from rich.text import Text
 
 from comms.status import Activity
-from missions.colors import ACTIVITY_COLORS, hex_color
+from missions.colors import ACTIVITY_INKS, hex_color
 from missions.observation import Observation
 from missions.review.checks import numbers_of
 from missions.review.reading import Review
@@ -31,7 +31,7 @@ _BETTER: Mapping[str, bool] = {
 }
 _SHARES = frozenset({"coverage", "coverage_late", "coverage_floor"})
 _ALWAYS = ("coverage", "events.target_loss", "help.calls")
-_GOOD, _BAD = (hex_color(ACTIVITY_COLORS[activity]) for activity in (Activity.FOLLOW, Activity.LOST))
+_GOOD, _BAD = (hex_color(ACTIVITY_INKS[activity]) for activity in (Activity.FOLLOW, Activity.LOST))
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ from rich.markdown import Markdown
 from rich.table import Table
 from rich.text import Text
 
-from missions.colors import ACTIVITY_COLORS, hex_color
+from missions.colors import ACTIVITY_INKS, hex_color
 from missions.observation import Observation
 from missions.problems import InputError
 from missions.review.reading import Review
@@ -42,7 +42,7 @@ def print_moment(review: Review, *, time_s: float, uid: int, console: Console) -
 
 def _title(seen: Observation, uid: int) -> Text:
     activity = seen.statuses[uid].activity
-    color = hex_color(ACTIVITY_COLORS[activity])
+    color = hex_color(ACTIVITY_INKS[activity])
     return Text.assemble((f"{agent(uid)} at {clock(seen.time_s)}: ", "bold"), (activity.value, f"bold {color}"))
 
 

@@ -10,7 +10,7 @@ from string import Template
 
 from matplotlib.figure import Figure
 
-from missions.colors import ACTIVITY_COLORS, LEVEL_COLORS, hex_color
+from missions.colors import ACTIVITY_COLORS, LEVEL_INKS, hex_color
 from missions.review.losses import Loss
 from missions.review.pictures import as_bytes, from_above, over_time
 from missions.review.reading import Review
@@ -99,7 +99,7 @@ def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 
 
 def _line(line: Line) -> str:
-    color = LEVEL_COLORS[line.level]
+    color = LEVEL_INKS[line.level]
     doing = "" if line.activity is None else line.activity.value
     dot = hex_color(color if line.activity is None else ACTIVITY_COLORS[line.activity])
     who = "mission" if line.who is None else agent(line.who)

@@ -10,7 +10,7 @@ from rich.table import Table
 from rich.text import Text
 
 from comms.status import Activity
-from missions.colors import ACTIVITY_COLORS, hex_color
+from missions.colors import ACTIVITY_COLORS, ACTIVITY_INKS, hex_color
 from missions.review.calls import Fate
 from missions.review.losses import Loss
 from missions.review.reading import Review
@@ -28,7 +28,7 @@ _FATES = {
     Fate.OPEN: "out until the end",
 }
 _SHOWN_LOSSES, _SHOWN_FAULTS = 12, 12
-_GOOD, _BAD, _DIM = hex_color(ACTIVITY_COLORS[Activity.FOLLOW]), hex_color(ACTIVITY_COLORS[Activity.LOST]), "dim"
+_GOOD, _BAD, _DIM = hex_color(ACTIVITY_INKS[Activity.FOLLOW]), hex_color(ACTIVITY_INKS[Activity.LOST]), "dim"
 
 
 def print_summary(review: Review, console: Console) -> None:
@@ -126,7 +126,7 @@ def _lane(slices: Sequence[Bucket]) -> Text:
     whole = shares.total()
     lane.append("\n")
     for activity, count in shares.most_common():
-        lane.append(f"{activity.value} {100 * count / whole:.0f} %  ", hex_color(ACTIVITY_COLORS[activity]))
+        lane.append(f"{activity.value} {100 * count / whole:.0f} %  ", hex_color(ACTIVITY_INKS[activity]))
     return lane
 
 

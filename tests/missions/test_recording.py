@@ -23,7 +23,7 @@ from missions.observation import Observation
 from missions.recording import Recorder, RecordingError, Scene, optimize
 from missions.recording.block import Block
 from missions.recording.optimize import rerun_command
-from missions.recording.palette import ACTIVITY_COLORS, GROUND, GROUND_FRESH
+from missions.recording.palette import ACTIVITY_INKS, GROUND, GROUND_FRESH, LEVEL_INKS
 from missions.recording.shapes import ground_mesh
 from tests.missions.toy_observations import PREPARATION, toy_observations, toy_scene
 
@@ -91,7 +91,7 @@ class TestContent:
         for seen in observations[::37]:
             true = [truth.position_m for truth in seen.truths]
             assert np.array(places[seen.tick]) == pytest.approx(np.array(true), abs=1 / 128 + 1e-6)
-            assert colors[seen.tick] == [ACTIVITY_COLORS[status.activity] for status in seen.statuses]
+            assert colors[seen.tick] == [ACTIVITY_INKS[status.activity] for status in seen.statuses]
 
     def test_mission_time_is_the_mission_clock(self, recording: Path) -> None:
         chunks = RrdReader(recording).stream().filter(content="/world/agents/body", has_timeline="tick").to_chunks()
@@ -232,7 +232,7 @@ class TestStory:
                 batch.column("TextLog:level").to_pylist(), batch.column("TextLog:color").to_pylist(), strict=True
             )
         }
-        assert lines == {("WARN", 0xFFB020FF), ("INFO", ACTIVITY_COLORS[Activity.FOLLOW])}
+        assert lines == {("WARN", LEVEL_INKS[Level.WARNING]), ("INFO", ACTIVITY_INKS[Activity.FOLLOW])}
 
 
 class TestLive:

@@ -66,12 +66,12 @@ def test_the_camera_has_the_whole_arena_in_the_picture(arena: Arena, ceiling_m: 
     right = np.array((1.0, 0.0, 0.0))
     up = np.cross(right, ahead)
     edge = shapes.edge_line(arena)
-    for height in (0.0, ceiling_m):
-        seen = np.column_stack((edge, np.full(len(edge), height))) - position
+    for share, height in ((1.0, 0.0), (0.75, ceiling_m)):
+        seen = np.column_stack((share * edge, np.full(len(edge), height))) - position
         depth = seen @ ahead
         assert depth.min() > 0
         assert np.abs(seen @ up / depth).max() < tan(pi * 55 / 360)
-        assert np.abs(seen @ right / depth).max() < 1.8 * tan(pi * 55 / 360)
+        assert np.abs(seen @ right / depth).max() < 1.65 * tan(pi * 55 / 360)
 
 
 def test_equal_scenes_share_an_id_and_others_do_not() -> None:
@@ -84,7 +84,20 @@ def test_equal_scenes_share_an_id_and_others_do_not() -> None:
 def test_each_activity_has_its_own_color() -> None:
     assert set(palette.ACTIVITY_COLORS) == set(Activity)
     assert len(set(palette.ACTIVITY_COLORS.values())) == len(Activity)
-    assert set(palette.LEVEL_COLORS) == set(Level)
+    assert len(set(palette.ACTIVITY_INKS.values())) == len(Activity) == len(palette.ACTIVITY_INKS)
+    assert set(palette.LEVEL_INKS) == set(Level)
+
+
+@pytest.mark.parametrize(
+    "ink", [*palette.ACTIVITY_INKS.values(), *palette.LEVEL_INKS.values(), *palette.series_colors(10)]
+)
+def test_inks_are_read_on_black_and_on_white(ink: int) -> None:
+    # WCAG 2.2, "contrast ratio": 3 is asked of graphics and of large text.
+    channels = (np.array([ink >> 24, ink >> 16 & 0xFF, ink >> 8 & 0xFF]) / 255).tolist()
+    linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in channels]
+    luminance = np.dot((0.2126, 0.7152, 0.0722), linear)
+    assert 1.05 / (luminance + 0.05) > 3.0
+    assert (luminance + 0.05) / 0.05 > 4.5
 
 
 def test_ramps_run_from_color_to_color() -> None:
