@@ -5,7 +5,7 @@ with viewer("flight.rrd", size=(1600, 900)) as seen:
     seen.save("a4.png", at_s=151.0)
     assert not seen.complaints
 
-Needs a Vulkan driver: Debian's mesa-vulkan-drivers and libvulkan1.
+Needs a Vulkan driver (Debian's mesa-vulkan-drivers and libvulkan1), and xvfb for the light theme.
 """
 
 from __future__ import annotations
@@ -18,18 +18,19 @@ import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from io import BytesIO
 from pathlib import Path
 from typing import Any
 
-from matplotlib.image import imread, imsave
+import rerun
 from rerun.experimental import ViewerClient
 
 from missions.recording.optimize import rerun_command
 from missions.recording.tape import TIME_LINE
+from tests.pictures.image import write_image
 
 _START_S, _OPEN_S, _DRAW_S = 20.0, 60.0, 40.0
 _LOOK_EVERY_S = 0.3
+_GREETING_S = 6.0  # so long a window tells where it listens
 _TITLE_BAR = 38  # pixels of window above the tabs: it says nothing of the recording
 
 
@@ -74,7 +75,7 @@ class Viewer:
         while (picture := self._client.take_screenshot()) != before and time.monotonic() < until:
             before = picture
             time.sleep(_LOOK_EVERY_S)
-        imsave(path, imread(BytesIO(picture), format="png")[_TITLE_BAR:])
+        write_image(picture, path, cut_top=_TITLE_BAR)
         self._complain()
 
     def _complain(self) -> None:
@@ -96,18 +97,13 @@ class Viewer:
 
 
 @contextmanager
-def viewer(recording: Path | str, *, size: tuple[int, int] = (1600, 900)) -> Iterator[Viewer]:
-    """A viewer that has `recording` open, in a window of `size` that nobody sees."""
-    port = _free_port()
-    with tempfile.TemporaryDirectory() as home:
-        command = [*rerun_command(), "--headless", "--bind", "127.0.0.1", "--port", str(port)]
-        command += [
-            "--window-size",
-            f"{size[0]}x{size[1] + _TITLE_BAR}",
-            "--hide-welcome-screen",
-            "--memory-limit",
-            "4GB",
-        ]
+def viewer(recording: Path | str, *, size: tuple[int, int] = (1600, 900), light: bool = False) -> Iterator[Viewer]:
+    """A viewer that has `recording` open, in a window of `size` that nobody sees, dark or light."""
+    port, window = _free_port(), f"{size[0]}x{size[1] + _TITLE_BAR}"
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as home:
+        command = [*rerun_command(), "--bind", "127.0.0.1", "--port", str(port), "--window-size", window]
+        command += ["--hide-welcome-screen", "--memory-limit", "4GB"]
+        command = _on_a_screen(command, size, Path(home)) if light else [*command, "--headless"]
         environment = {**os.environ, "RUST_LOG": "error", "XDG_RUNTIME_DIR": home, "XDG_DATA_HOME": home}
         quiet = subprocess.DEVNULL
         process = subprocess.Popen(command, env=environment, stdout=quiet, stderr=quiet, start_new_session=True)
@@ -116,10 +112,23 @@ def viewer(recording: Path | str, *, size: tuple[int, int] = (1600, 900)) -> Ite
             shown = Viewer(ViewerClient.connect(f"rerun+http://127.0.0.1:{port}/proxy"))
             shown.open(recording)
             shown.hide_menu()
+            if light:
+                time.sleep(_GREETING_S)
             yield shown
         finally:
             os.killpg(process.pid, signal.SIGTERM)
             process.wait(timeout=_START_S)
+
+
+def _on_a_screen(command: list[str], size: tuple[int, int], home: Path) -> list[str]:
+    """The command on a screen of its own, as somebody who likes it light: without a window it knows dark alone."""
+    # The pointer is in the middle of the screen: there it shall point at nothing.
+    screen = f"-screen 0 {2 * size[0] + 100}x{2 * size[1] + 100}x24"
+    settings = home / "rerun" / "app.ron"
+    settings.parent.mkdir()
+    version = rerun.__version__
+    settings.write_text(f'{{"rerun.version": "{version}", "egui": "(options:(theme_preference:Light))"}}')
+    return ["xvfb-run", "-a", "-s", screen, *command, "--persist-state"]
 
 
 def _named(blueprint: dict[str, Any], name: str) -> str:
