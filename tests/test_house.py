@@ -20,7 +20,7 @@ FENCES = {
     "zenoh": {"comms/session.py"},
     "pymavlink": {"comms/mavlink.py", "comms/packing.py", "swarm_agent/autopilot/", "vehicle_sim/autopilot/"},
     "rerun": {"missions/recording/"},
-    "numpy": {"missions/recording/", "missions/review/pictures.py", "missions/study/", "missions/train"},
+    "numpy": {"missions/recording/", "missions/review/figures/", "missions/study/", "missions/train"},
     "torch": {"missions/train"},
     "numba": {"missions/study/"},
     "cryptography": {"missions/daemons/issue.py"},

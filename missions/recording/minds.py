@@ -23,9 +23,7 @@ _ARROW_S = 4.0
 # News older than this is shown with its age.
 _FRESH_S = 1.0
 _CIRCLE = np.column_stack([wave(np.linspace(0.0, 2 * pi, 41)) for wave in (np.cos, np.sin)])
-_HEADER = (
-    "| target | where, m east, north | known | follows | calls | lost in | comes | in | off by |\n" + "|---" * 9 + "|"
-)
+_HEADER = "| target | east, north m | known | follows | calls | lost in | comes | in | off by |\n" + "|---" * 9 + "|"
 
 
 class _Told(NamedTuple):

@@ -5,6 +5,6 @@
     review.losses[0].chances         # who could have prevented the first loss
     print(*review.lines, sep="\\n")   # the timeline
 
-`reading` puts it together; `calls`, `losses` and `timeline` find what happened; `summary`, `moment`, `comparison`,
-`pictures` and `page` show it; `checks` judges it; `command` is the shell.
+`reading` puts it together; `calls`, `losses`, `timeline` and `highlights` find what happened; `summary`, `moment`,
+`lines`, `comparison`, `figures` and `page` show it; `checks` judges it; `command` is the shell.
 """

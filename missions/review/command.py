@@ -6,21 +6,20 @@ import sys
 from pathlib import Path
 
 from rich.console import Console
-from rich.text import Text
 
-from comms.status import Level
-from missions.colors import ACTIVITY_INKS, LEVEL_INKS, hex_color
 from missions.problems import InputError
 from missions.report import as_json
 from missions.review.checks import judge, numbers_of
 from missions.review.comparison import print_comparison
+from missions.review.figures.output import write_picture
+from missions.review.figures.over_time import over_time
+from missions.review.figures.side_by_side import side_by_side
+from missions.review.lines import print_line
 from missions.review.moment import print_moment
 from missions.review.options import ReviewOptions
 from missions.review.page import page_of
-from missions.review.pictures import over_time, side_by_side, write_picture
 from missions.review.reading import Review, read
 from missions.review.summary import print_summary
-from missions.review.timeline import Line
 
 DONE, FAILED = 0, 1
 _WIDE = 160
@@ -85,11 +84,4 @@ def _written(path: Path, console: Console) -> None:
 def _print_events(one: Review, console: Console, *, everything: bool) -> None:
     for line in one.lines:
         if everything or not line.routine:
-            console.print(_colored(line), soft_wrap=True)
-
-
-def _colored(line: Line) -> Text:
-    color = LEVEL_INKS[line.level]
-    if line.level is Level.INFO and line.activity is not None:
-        color = ACTIVITY_INKS[line.activity]
-    return Text(str(line), hex_color(color))
+            print_line(line, console)

@@ -30,6 +30,8 @@ _BETTER: Mapping[str, bool] = {
     "timing.tick_late_s_max": False,
 }
 _SHARES = frozenset({"coverage", "coverage_late", "coverage_floor"})
+# What a mission is called changes nothing: it comes last.
+_LABELS = frozenset({"name", "description"})
 _ALWAYS = ("coverage", "events.target_loss", "help.calls")
 _GOOD, _BAD = (hex_color(ACTIVITY_INKS[activity]) for activity in (Activity.FOLLOW, Activity.LOST))
 
@@ -50,7 +52,7 @@ def setting_differences(first: Mapping[str, Any], second: Mapping[str, Any]) -> 
     flat_first, flat_second = dict(_flat(first)), dict(_flat(second))
     return [
         Difference(key, _said(flat_first, key), _said(flat_second, key))
-        for key in sorted(flat_first.keys() | flat_second.keys())
+        for key in sorted(flat_first.keys() | flat_second.keys(), key=lambda key: (key in _LABELS, key))
         if flat_first.get(key, _MISSING) != flat_second.get(key, _MISSING)
     ]
 
@@ -105,7 +107,10 @@ def _table(title: str, names: Sequence[str], rows: Sequence[Difference]) -> Tabl
         table.add_column("change", justify="right")
     for row in rows:
         color = "" if not row.gain else _GOOD if row.gain > 0 else _BAD
-        table.add_row(row.name, row.first, row.second, *([Text(row.change, color)] if changes else []))
+        # What nobody can call better or worse stands back.
+        style = "dim" if row.change and row.gain is None and row.name not in _ALWAYS else ""
+        change = [Text(row.change, color)] if changes else []
+        table.add_row(row.name, row.first, row.second, *change, style=style)
     return table
 
 
@@ -114,7 +119,10 @@ def _difference(name: str, first: float | None, second: float | None) -> Differe
     if first is None or second is None or first == second:
         return Difference(name, words(first), words(second))
     change = second - first
-    told = f"{100 * change:+.1f} points" if name in _SHARES else f"{change:+.6g}"
+    if name in _SHARES:
+        told = f"{100 * change:+.1f} points"
+    else:
+        told = f"{change:+.3g}" if isinstance(change, float) else f"{change:+}"
     gain = None if name not in _BETTER else change if _BETTER[name] else -change
     return Difference(name, words(first), words(second), told, gain)
 
@@ -132,7 +140,10 @@ def _flat(settings: Any, path: str = "") -> Iterator[tuple[str, Any]]:
 
 
 def _said(settings: Mapping[str, Any], key: str) -> str:
-    return "–" if key not in settings else str(settings[key])
+    value = settings.get(key, "–")
+    if isinstance(value, list) and value and all(isinstance(part, Mapping) and "kind" in part for part in value):
+        return f"{len(value)}: {', '.join(str(part['kind']) for part in value)}"
+    return str(value)
 
 
 def _deeds(seen: Observation) -> list[tuple[Any, ...]]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import hypot
+from math import hypot, inf
 
 from comms.status import OFF_DUTY, Activity
 from missions.metrics import CALL_PAUSE_S
@@ -83,6 +83,12 @@ def losses_of(
             losses.append(at_large[target])
         before = owners
     return losses
+
+
+def longest(losses: Sequence[Loss], count: int) -> list[Loss]:
+    """The `count` losses that lasted longest, in order of time."""
+    found = sorted(losses, key=lambda loss: -(loss.found_after_s or inf))[:count]
+    return sorted(found, key=lambda loss: loss.time_s)
 
 
 def _call_out(calls: Sequence[Call], target: int, owners: tuple[int, ...], time_s: float) -> Call | None:

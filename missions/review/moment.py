@@ -14,12 +14,12 @@ from rich.text import Text
 from missions.colors import ACTIVITY_INKS, hex_color
 from missions.observation import Observation
 from missions.problems import InputError
+from missions.review.lines import print_line
 from missions.review.reading import Review
-from missions.review.timeline import Line
 from missions.review.words import agent, agents, clock, target
 
 # Lines so much earlier and later are shown.
-_ABOUT_S = 10.0
+_ABOUT_S, _NOW_S = 10.0, 0.5
 
 
 def print_moment(review: Review, *, time_s: float, uid: int, console: Console) -> None:
@@ -37,7 +37,10 @@ def print_moment(review: Review, *, time_s: float, uid: int, console: Console) -
     console.print(Group(_title(seen, uid), Text(), _facts(review, seen, uid), *_page(review, seen, uid)))
     nearby = [line for line in review.lines if line.who == uid and abs(line.time_s - seen.time_s) <= _ABOUT_S]
     if nearby:
-        console.print(Group(Text("\nWhat happened about then", "bold"), *_lines(nearby, seen.time_s)))
+        console.print(Text("\nWhat happened about then", "bold"))
+    for line in nearby:
+        now = abs(line.time_s - seen.time_s) < _NOW_S
+        print_line(line, console, style="bold" if now else "dim" if line.time_s > seen.time_s else "default")
 
 
 def _title(seen: Observation, uid: int) -> Text:
@@ -95,10 +98,17 @@ def _page(review: Review, seen: Observation, uid: int) -> Iterator[RenderableTyp
     if count:
         tick, text = pages[count - 1]
         yield Text(f"\nWhat it knew and wanted, told at {clock(tick * review.playback.facts.tick_s)}", "bold")
-        yield Markdown(text.partition("\n")[2])  # its title says what ours says
+        yield from _told(text.partition("\n")[2])  # its title says what ours says
 
 
-def _lines(lines: list[Line], now_s: float) -> Iterator[Text]:
-    for line in lines:
-        style = "bold" if abs(line.time_s - now_s) < 0.5 else "dim" if line.time_s > now_s else ""
-        yield Text(str(line), style)
+def _told(page: str) -> Iterator[RenderableType]:
+    """Markdown, with its table closer together: nine columns in eighty."""
+    for part in page.strip().split("\n\n"):
+        rows = [[cell.strip() for cell in row.strip("|").split("|")] for row in part.splitlines() if row[:1] == "|"]
+        if not rows:
+            yield Markdown(part)
+            continue
+        table = Table(*rows[0], box=None, pad_edge=False, header_style="dim")
+        for row in rows[2:]:  # the second row is a line
+            table.add_row(*row)
+        yield Group(Text(), table, Text())

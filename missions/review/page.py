@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
-from base64 import b64encode
 from collections.abc import Iterable, Sequence
 from html import escape
 from importlib.resources import files
 from string import Template
 
-from matplotlib.figure import Figure
-
 from missions.colors import ACTIVITY_COLORS, LEVEL_INKS, hex_color
-from missions.review.losses import Loss
-from missions.review.pictures import as_bytes, from_above, over_time
+from missions.review.figures.from_above import from_above
+from missions.review.figures.output import part_of_page
+from missions.review.figures.over_time import over_time
+from missions.review.highlights import highlights, told
+from missions.review.losses import Loss, longest
 from missions.review.reading import Review
 from missions.review.summary import injected_rows
 from missions.review.timeline import Line, call_words, loss_words
 from missions.review.words import agent, clock, percent
+
+_ABOUT_TIME = "Over time: faults on purpose, coverage, what each agent does, and how far targets are from agents"
+_ABOUT_PATHS = "From above: the paths of agents and targets, and where targets were lost"
+# Losses that are shown at once; the others are one click away.
+_SHOWN_LOSSES = 12
+_LOSS_HEAD = ("time", "who", "what", "found again")
 
 
 def page_of(review: Review) -> str:
@@ -24,6 +30,8 @@ def page_of(review: Review) -> str:
     report = review.report
     title = f"{report['mission']}, seed {report['seed']}"
     template = Template((files("missions.review") / "page.html").read_text(encoding="utf-8"))
+    worst = longest(review.losses, _SHOWN_LOSSES)
+    others = [loss for loss in review.losses if loss not in worst]
     return template.substitute(
         title=escape(title),
         subtitle=escape(
@@ -32,12 +40,20 @@ def page_of(review: Review) -> str:
         ),
         notes="".join(f'<p class="note">{escape(note)}</p>' for note in review.notes),
         tiles="".join(map(_tile, _tiles(review))),
-        over_time=_picture(over_time(review, titled=False), "Coverage, activities and distances over time"),
-        from_above=_picture(from_above(review), "Paths from above"),
-        losses=_table(("time", "who", "what", "found again"), map(_loss_row, review.losses)),
-        calls=_table(
-            ("began", "caller", "how it went"),
-            ((clock(call.began_s), agent(call.caller), call_words(call)) for call in review.calls),
+        highlights="".join(map(_highlight, map(told, highlights(review))))
+        or "<li>Nothing: no target was lost for long.",
+        over_time=part_of_page(over_time(review, titled=False), about=_ABOUT_TIME),
+        from_above=part_of_page(from_above(review), about=_ABOUT_PATHS),
+        losses=_table(_LOSS_HEAD, map(_loss_row, worst)),
+        shorter_losses=_details(f"{len(others)} shorter losses", _table(_LOSS_HEAD, map(_loss_row, others)))
+        if others
+        else "",
+        calls=_details(
+            f"{len(review.calls)} help calls, and their fate",
+            _table(
+                ("began", "caller", "how it went"),
+                ((clock(call.began_s), agent(call.caller), call_words(call)) for call in review.calls),
+            ),
         ),
         faults=_table(
             ("time", "who", "what"),
@@ -52,6 +68,15 @@ def page_of(review: Review) -> str:
         versions=escape(", ".join(f"{name} {version}" for name, version in report["versions"].items())),
         recording=escape(review.playback.path.name),
     )
+
+
+def _highlight(row: tuple[str, str]) -> str:
+    when, what = map(escape, row)
+    return f"<li><b>{when}</b>{what}" if when else f"<li>{what}"
+
+
+def _details(summary: str, inside: str) -> str:
+    return f"<details><summary>{escape(summary)}</summary>{inside}</details>"
 
 
 def _tiles(review: Review) -> Sequence[tuple[str, str, str]]:
@@ -81,11 +106,6 @@ def _tile(tile: tuple[str, str, str]) -> str:
     return f'<div class="tile"><span>{label}</span><strong>{number}</strong><small>{against}</small></div>'
 
 
-def _picture(figure: Figure, about: str) -> str:
-    data = b64encode(as_bytes(figure, "png")).decode()
-    return f'<img alt="{escape(about)}" src="data:image/png;base64,{data}">'
-
-
 def _loss_row(loss: Loss) -> tuple[str, str, str, str]:
     found = "never" if loss.found_after_s is None else f"after {loss.found_after_s:.1f} s"
     return clock(loss.time_s), agent(loss.owners[0]), loss_words(loss), found
@@ -95,7 +115,8 @@ def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     body = "".join(f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in row)}</tr>" for row in rows)
     if not body:
         return '<p class="none">None.</p>'
-    return f"<table><thead><tr>{''.join(f'<th>{escape(name)}</th>' for name in head)}</tr></thead>{body}</table>"
+    names = "".join(f'<th scope="col">{escape(name)}' for name in head)
+    return f'<div class="wide"><table><thead><tr>{names}</thead><tbody>{body}</tbody></table></div>'
 
 
 def _line(line: Line) -> str:

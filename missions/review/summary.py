@@ -1,4 +1,4 @@
-"""A review on one page of a terminal: outcome, coverage over time, losses, calls, radio, faults."""
+"""A review on one page of a terminal: outcome, what stands out, coverage over time, losses, calls, radio, faults."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ from rich.text import Text
 from comms.status import Activity
 from missions.colors import ACTIVITY_COLORS, ACTIVITY_INKS, hex_color
 from missions.review.calls import Fate
-from missions.review.losses import Loss
+from missions.review.highlights import Highlight, highlights, told
+from missions.review.losses import longest
 from missions.review.reading import Review
 from missions.review.series import Bucket, buckets
 from missions.review.timeline import loss_words
@@ -40,6 +41,9 @@ def _parts(review: Review) -> Iterable[RenderableType]:
     yield _title(review)
     yield from (Text(note, "yellow") for note in review.notes)
     yield Text()
+    if found := highlights(review):
+        yield _highlights(found)
+        yield Text()
     yield _facts(review)
     if review.losses:
         yield Text()
@@ -137,20 +141,23 @@ def _help_words(review: Review) -> str:
     return f"{report['calls']} calls" + (f": {ends}" if ends else "") + f"; {report['answered']} set out to help"
 
 
+def _highlights(found: Iterable[Highlight]) -> Table:
+    table = Table(title="What stands out", title_justify="left", title_style="bold", box=None, pad_edge=False)
+    table.show_header = False
+    for row in map(told, found):
+        table.add_row(*row)
+    return table
+
+
 def _losses(review: Review) -> Table:
     table = Table(title="Losses", title_justify="left", title_style="bold", box=None, pad_edge=False, show_header=False)
-    for loss in _worst(review):
+    for loss in longest(review.losses, _SHOWN_LOSSES):
         found = "never found again" if loss.found_after_s is None else f"found after {loss.found_after_s:.1f} s"
         color = _BAD if loss.found_after_s is None or loss.found_after_s > 10.0 else ""
         table.add_row(clock(loss.time_s), agent(loss.owners[0]), loss_words(loss), Text(found, color))
     if len(review.losses) > _SHOWN_LOSSES:
         table.add_row("", "", Text(f"and {len(review.losses) - _SHOWN_LOSSES} shorter ones: --events", _DIM), "")
     return table
-
-
-def _worst(review: Review) -> Sequence[Loss]:
-    longest = sorted(review.losses, key=lambda loss: -(loss.found_after_s or float("inf")))[:_SHOWN_LOSSES]
-    return sorted(longest, key=lambda loss: loss.time_s)
 
 
 def _injected(review: Review) -> Table:

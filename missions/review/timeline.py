@@ -17,6 +17,9 @@ from missions.review.calls import Call
 from missions.review.losses import Loss
 from missions.review.words import agent, agents, clock, target
 
+_DOING = max(len(activity.value) for activity in Activity)
+# Where the words of a line begin.
+INDENT = 8 + 2 + 7 + 2 + _DOING + 2
 # A call that comes and goes with a prediction is told once in so long.
 _TOLD_AGAIN_S = 10.0
 _ABOUT = re.compile(r".*?\bT\d+\b")
@@ -47,7 +50,7 @@ class Line:
     def __str__(self) -> str:
         who = "mission" if self.who is None else agent(self.who)
         doing = "" if self.activity is None else self.activity.value.upper()
-        return f"{clock(self.time_s):>8}  {who:<7}  {doing:<16}  {self.text}"
+        return f"{clock(self.time_s):>8}  {who:<7}  {doing:<{_DOING}}  {self.text}"
 
 
 def timeline_of(observations: Sequence[Observation], calls: Sequence[Call], losses: Sequence[Loss]) -> list[Line]:
