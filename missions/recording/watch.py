@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import os
+import signal
 import socket
 import subprocess
 from urllib.parse import quote
@@ -20,8 +21,14 @@ def open_window(server_url: str) -> None:
     _start([*rerun_command(), "--hide-welcome-screen", server_url], server_url)
 
 
+# A shell that ends its command when its input ends, which is when whoever holds the other end does: by kill -9, too.
+_LEASH = ("/bin/sh", "-c", '"$@" & read _; kill $!', "leash")
+
+
 class WebPage:
     """A web server with the viewer's page, which reads the recording from `server_url`, until it is closed.
+
+    It ends with this process, whatever ends that.
 
     Attributes:
         url: what to open in a browser, as often as one likes.
@@ -32,17 +39,19 @@ class WebPage:
         self.url = f"http://{LOOPBACK}:{port}/?url={quote(server_url, safe='')}"
         serve = ["--serve-web", "--bind", LOOPBACK, "--web-viewer-port", str(port)]
         # Which browser to open is the user's choice: rerun would open one by itself.
-        self._process = _start([*rerun_command(), server_url, *serve], server_url, BROWSER="true")
+        command = [*_LEASH, *rerun_command(), server_url, *serve]
+        self._process = _start(command, server_url, stdin=subprocess.PIPE, BROWSER="true")
 
     def close(self) -> None:
         """Stop serving; pages that are open keep what they have loaded."""
         if self._process is None:
             return
-        self._process.terminate()
+        if self._process.stdin is not None:
+            self._process.stdin.close()
         try:
             self._process.wait(timeout=_STOP_S)
         except subprocess.TimeoutExpired:
-            self._process.kill()
+            os.killpg(self._process.pid, signal.SIGKILL)
 
 
 def free_port() -> int:
@@ -53,13 +62,15 @@ def free_port() -> int:
         return port
 
 
-def _start(command: list[str], server_url: str, **environment: str) -> subprocess.Popen[bytes] | None:
+def _start(
+    command: list[str], server_url: str, *, stdin: int = subprocess.DEVNULL, **environment: str
+) -> subprocess.Popen[bytes] | None:
     quiet = subprocess.DEVNULL
     try:
         return subprocess.Popen(
             command,
             env={**os.environ, "RERUN_APP_ONLY": "true", **environment},
-            stdin=quiet,
+            stdin=stdin,
             stdout=quiet,
             stderr=quiet,
             start_new_session=True,

@@ -252,6 +252,27 @@ class TestLive:
         with pytest.raises(OSError, match="refused"):
             urlopen(recorder.page_url, timeout=5.0)
 
+    def test_the_page_ends_with_the_process_that_serves_it_even_if_it_is_killed(self) -> None:
+        serving = "from missions.recording.watch import WebPage\nprint(WebPage('rerun+http://127.0.0.1:9/proxy').url)"
+        command = [sys.executable, "-u", "-c", f"{serving}\ninput()"]
+        with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
+            assert process.stdout is not None
+            url = process.stdout.readline().strip()
+            assert b"Rerun" in _fetch(url)
+            process.kill()
+        until = time.monotonic() + 20.0
+        while _answers(url):
+            assert time.monotonic() < until, "the page is still served"
+            time.sleep(0.05)
+
+
+def _answers(url: str) -> bool:
+    try:
+        urlopen(url, timeout=5.0).close()
+        return True
+    except OSError:
+        return False
+
 
 def _fetch(url: str) -> bytes:
     """What a server says that is about to start."""
