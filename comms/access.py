@@ -1,6 +1,7 @@
-"""Who may say and hear what on a secured network. What is not in these tables is denied, by the router, to everybody.
+"""Who may say and hear what on a secured network. What is not in these tables is denied to everybody.
 
-An agent speaks by its own radio and of itself alone, hears its own receiver and its own cues, and answers people. The
+An agent speaks by its own radio and of itself alone, hears its own receiver and its own cues, and answers people. In
+the field it hears every radio, and still speaks by its own alone: behind the router, and from radio to radio. The
 recorder hears the truth and says how far it has got. The operator sees who is there, and gives orders. A name is that
 of a certificate (`comms.credentials`), not what a frame says of itself.
 """
@@ -31,21 +32,31 @@ class Deed(Enum):
 Rights = Sequence[tuple[Deed, Sequence[str]]]
 
 
+class Place(Enum):
+    """Where a gate stands, and what passes it."""
+
+    AIR = "air"  # the router of a mission whose air carries every frame
+    FIELD = "field"  # the router of a mission whose agents hear each other through it
+    RADIO = "radio"  # an agent's own radio, which its mates reach directly
+
+
 @dataclass(frozen=True, slots=True)
 class Gate:
-    """What a router needs to know whom it lets in.
+    """What a session needs to know to let others in.
 
     Attributes:
         credentials: its own. keys: of its mission. names: whom it knows; nobody else may say or hear anything.
+        place: where it stands.
     """
 
     credentials: Credentials
     keys: Keys
     names: tuple[str, ...]
+    place: Place = Place.AIR
 
     def access_control(self) -> dict[str, Any]:
         """The section `access_control` of zenoh's configuration."""
-        granted = {name: list(_rules(name, rights(self.keys, name))) for name in self.names}
+        granted = {name: list(_rules(name, rights(self.keys, name, self.place))) for name in self.names}
         granted = {name: rules for name, rules in granted.items() if rules}  # zenoh takes no empty list
         return {
             "enabled": True,
@@ -58,25 +69,37 @@ class Gate:
         }
 
 
-def rights(keys: Keys, name: str) -> Rights:
-    """What `name` may do; nothing if it is not a name of a swarm."""
+def rights(keys: Keys, name: str, place: Place = Place.AIR) -> Rights:
+    """What `name` may do there; nothing if it is not a name of a swarm."""
+    if place is Place.RADIO:
+        return _mates(keys, agents_named(name))
     if name == RECORDER:
         return _recorder(keys)
     if name == OPERATOR:
         return _operator(keys)
-    return _agents(keys, agents_named(name))
+    return _agents(keys, agents_named(name), [keys.every_tx] if place is Place.FIELD else [])
 
 
-def _agents(keys: Keys, uids: Sequence[int]) -> Rights:
+def _agents(keys: Keys, uids: Sequence[int], also_heard: Sequence[str]) -> Rights:
     if not uids:
         return ()
     return (
         (Deed.SAY, [key for uid in uids for key in (keys.tx(uid), keys.done(uid))]),
         (Deed.KNOW_LISTENERS, [keys.every_tx, keys.every_done]),
-        (Deed.HEAR, [key for uid in uids for key in (keys.every_rx(uid), keys.cue(uid))]),
+        (Deed.HEAR, [*also_heard, *(key for uid in uids for key in (keys.every_rx(uid), keys.cue(uid)))]),
         (Deed.BE_THERE, [keys.alive(uid) for uid in uids]),
         (Deed.WATCH, [keys.alive(WORLD)]),
         (Deed.ANSWER, [keys.every_command(uid) for uid in uids]),
+    )
+
+
+def _mates(keys: Keys, uids: Sequence[int]) -> Rights:
+    if not uids:
+        return ()
+    return (
+        (Deed.SAY, [keys.tx(uid) for uid in uids]),
+        (Deed.KNOW_LISTENERS, [keys.every_tx]),
+        (Deed.HEAR, [keys.every_tx]),
     )
 
 

@@ -2,7 +2,8 @@
 
 One folder holds `authority.pem`, and `NAME.pem` and `NAME.key` for each name: `world`, `recorder`, `operator`,
 `agent-3`, or `agents-0-4` for a process that runs five. A computer needs the authority and what bears its own name; the
-world also the certificates of those it lets in.
+world also the certificates of those it lets in. The folder `radio` in it is of the same kind: by an authority of its
+own the radios of agents know each other, where they speak directly.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from pathlib import Path
 
 OPERATOR = "operator"
 AUTHORITY = "authority.pem"
+RADIO = "radio"
 _AGENTS = re.compile(r"agent-(?P<one>\d{1,5})|agents-(?P<first>\d{1,5})-(?P<last>\d{1,5})")
 
 
@@ -38,6 +40,11 @@ class Credentials:
     def key(self) -> Path:
         """What proves it, and nobody else may have."""
         return self.folder / f"{self.name}.key"
+
+    @property
+    def of_radio(self) -> Credentials:
+        """Those by which its radio is known to other radios."""
+        return Credentials(self.folder / RADIO, self.name)
 
     @property
     def missing(self) -> list[Path]:

@@ -15,13 +15,15 @@ EARLY_S = 0.5  # clocks of computers that keep time by themselves may differ so 
 MAX_WAITING = 4096  # frames; beyond it the oldest go: a radio that nobody drains must not eat the memory
 
 # Within one process a frame reaches several agents as the same bytes: decode it once.
-_decode = lru_cache(maxsize=1024)(codec.decode)
+decode_once = lru_cache(maxsize=1024)(codec.decode)
 
 
 @dataclass(slots=True)
 class RadioCount:
-    """What arrived so far: accepted frames, and those refused, by reason."""
+    """What was sent so far, and what arrived: accepted frames, and those refused, by reason."""
 
+    sent: int = 0
+    bytes: int = 0
     accepted: int = 0
     bad: int = 0  # not a frame, or not from whom its key says
     stale: int = 0  # older than its own time to live
@@ -43,18 +45,20 @@ class Radio:
         self._arrived: deque[tuple[str, bytes]] = deque(maxlen=MAX_WAITING)
         self._last_seq: dict[int, int] = {}
         self.count = RadioCount()
-        bus.subscribe(keys.every_rx(uid), self._hear)
+        bus.subscribe(self._heard_at(keys), self._hear)
 
-    @property
-    def waiting(self) -> int:
-        """How many frames have arrived and were not drained yet."""
+    def waiting(self, now_s: float) -> int:
+        """How many frames have arrived that can be heard by now, and were not drained yet."""
         return len(self._arrived)
 
     def send(self, frame: Frame) -> None:
         """Speak: one frame, to whoever is in range."""
-        self._put(codec.encode(frame))
+        payload = codec.encode(frame)
+        self.count.sent += 1
+        self.count.bytes += len(payload)
+        self._put(payload)
 
-    def forget(self) -> None:
+    def forget(self, now_s: float) -> None:
         """Be as new: nothing waits, and nobody has been heard. What a computer that goes out does to its radio."""
         self._arrived.clear()
         self._last_seq.clear()
@@ -64,7 +68,7 @@ class Radio:
         frames = []
         while self._arrived:
             key, payload = self._arrived.popleft()
-            frame = _decode(payload)
+            frame = decode_once(payload)
             if frame is None or frame.src != sender(key):
                 self.count.bad += 1
             elif now_s - frame.sent_at_s > frame.ttl_s:
@@ -78,9 +82,11 @@ class Radio:
         self.count.accepted += len(fresh)
         return fresh
 
+    def _heard_at(self, keys: Keys) -> str:
+        return keys.every_rx(self.uid)
+
     def _hear(self, key: str, payload: bytes) -> None:
-        # What is too long to be a frame is not kept: it counts as one that is none.
-        self._arrived.append((key, payload if len(payload) <= codec.MAX_FRAME_BYTES else b""))
+        self._arrived.append((key, kept(payload)))
 
     def _is_new(self, frame: Frame) -> bool:
         if frame.seq <= self._last_seq.get(frame.src, -1):
@@ -88,6 +94,11 @@ class Radio:
             return False
         self._last_seq[frame.src] = frame.seq
         return True
+
+
+def kept(payload: bytes) -> bytes:
+    """What is kept of what arrived: what is too long to be a frame is not, and counts as one that is none."""
+    return payload if len(payload) <= codec.MAX_FRAME_BYTES else b""
 
 
 def _by_sender(frame: Frame) -> tuple[int, int]:

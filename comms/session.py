@@ -5,16 +5,16 @@
         put = bus.publisher("a/1")
         put(b"hello")                        # on_sample("a/1", b"hello") has run when put returns
 
-Between processes: one `open_router`, and an `open_client` in each of the others. With credentials both prove who they
-are (TLS, at a `tls/` endpoint), and the router's gate says who may do what. Constructors touch nothing: the session
-opens and closes with the `with` block.
+Between processes: one `open_router`, and an `open_client` in each of the others; or an `open_peer` in each, with nobody
+in the middle. With credentials both ends prove who they are (TLS, at a `tls/` endpoint), and a gate says who may do
+what. Constructors touch nothing: the session opens and closes with the `with` block.
 """
 
 from __future__ import annotations
 
 import json
 import socket
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from typing import Any, Protocol
 
@@ -71,7 +71,7 @@ class BusError(Exception):
 
 
 class ZenohBus:
-    """A bus on an open zenoh session; see `open_local_bus`, `open_router` and `open_client`.
+    """A bus on an open zenoh session; see `open_local_bus`, `open_router`, `open_client` and `open_peer`.
 
     Args:
         lossless: wait rather than drop when a receiver is slow.
@@ -172,14 +172,39 @@ def open_router(endpoint: str, *, lossless: bool, gate: Gate | None = None) -> I
     settings: dict[str, Any] = {"mode": "router", "listen/endpoints": [endpoint]}
     if gate is not None:
         settings |= _proofs(gate.credentials, "listen") | {"access_control": gate.access_control()}
-    with ExitStack() as stack:
-        try:
-            session = stack.enter_context(_open(settings))
-        except zenoh.ZError as error:
-            raise BusError(
-                f"cannot listen on {endpoint}: is it a free port of this machine? ({_reason(error)})"
-            ) from error
+    with _open_listening(settings, endpoint) as session:
         yield ZenohBus(session, lossless=lossless)
+
+
+@contextmanager
+def open_peer(endpoint: str, mates: Sequence[str], *, gate: Gate | None = None) -> Iterator[ZenohBus]:
+    """A session that listens there and speaks to its mates directly, with nobody in the middle.
+
+    Whoever is not there is called again and again, for as long as the session is open; nobody is waited for.
+
+    Args:
+        mates: whom it calls: where they listen. Of two peers one must call the other.
+        gate: whom to let in, and to what; without one, everybody to everything.
+
+    Raises:
+        BusError: it cannot listen there.
+    """
+    settings: dict[str, Any] = {
+        "mode": "peer",
+        "listen/endpoints": [endpoint],
+        "connect/endpoints": list(mates),
+        "connect/timeout_ms": -1,
+        "connect/exit_on_failure": False,
+        "connect/retry": _RETRY,
+        # A mate that stands still, or is out of reach, is given up so soon, and nothing waits for it.
+        "transport/link/tx/lease": 1000,
+        "open/return_conditions/connect_scouted": False,
+        "open/return_conditions/declares": False,
+    }
+    if gate is not None:
+        settings |= _proofs(gate.credentials, "listen", "connect") | {"access_control": gate.access_control()}
+    with _open_listening(settings, endpoint) as session:
+        yield ZenohBus(session)
 
 
 @contextmanager
@@ -196,7 +221,7 @@ def open_client(
         "connect/endpoints": [endpoint],
         "connect/timeout_ms": round(patience_s * 1000),
         "connect/exit_on_failure": True,
-        "connect/retry": {"period_init_ms": 100, "period_max_ms": 300, "period_increase_factor": 1.5},
+        "connect/retry": _RETRY,
     }
     if credentials is not None:
         settings |= _proofs(credentials, "connect")
@@ -212,6 +237,18 @@ def open_client(
 
 
 @contextmanager
+def _open_listening(settings: Mapping[str, Any], endpoint: str) -> Iterator[Any]:
+    with ExitStack() as stack:
+        try:
+            session = stack.enter_context(_open(settings))
+        except zenoh.ZError as error:
+            raise BusError(
+                f"cannot listen on {endpoint}: is it a free port of this machine? ({_reason(error)})"
+            ) from error
+        yield session
+
+
+@contextmanager
 def _open(settings: Mapping[str, Any]) -> Iterator[Any]:
     zenoh.init_log_from_env_or("error")
     config = zenoh.Config()
@@ -221,15 +258,15 @@ def _open(settings: Mapping[str, Any]) -> Iterator[Any]:
         yield session
 
 
-def _proofs(credentials: Credentials, end: str) -> dict[str, Any]:
+def _proofs(credentials: Credentials, *ends: str) -> dict[str, Any]:
     """Both ends show certificates. A router's is of another kind than a client's, so no address needs to be in it."""
     tls = "transport/link/tls"
     return {
         f"{tls}/root_ca_certificate": str(credentials.authority),
         f"{tls}/enable_mtls": True,
         f"{tls}/verify_name_on_connect": False,
-        f"{tls}/{end}_certificate": str(credentials.certificate),
-        f"{tls}/{end}_private_key": str(credentials.key),
+        **{f"{tls}/{end}_certificate": str(credentials.certificate) for end in ends},
+        **{f"{tls}/{end}_private_key": str(credentials.key) for end in ends},
     }
 
 
@@ -249,6 +286,7 @@ def _reason(error: Exception) -> str:
 
 
 _LOOK_S = 1.0
+_RETRY = {"period_init_ms": 100, "period_max_ms": 300, "period_increase_factor": 1.5}
 _QUIET: dict[str, Any] = {
     "listen/endpoints": [],
     "connect/endpoints": [],

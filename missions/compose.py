@@ -8,13 +8,16 @@ from math import atan2, cos, radians
 
 from comms.air import Air, LinkModel
 from comms.chance import PLACE_AGENT
+from comms.field import FieldRadio
 from comms.frames import GeoPoint, enu_from_geo, geo_from_enu
 from comms.keys import Keys
+from comms.radio import Radio
 from comms.session import Bus
 from comms.signing import Signing, read_key
 from comms.transport import Transport
 from missions.mission import CircleFence, Disc, Mission, PolygonFence, TrackTargets
 from missions.rules import start_places
+from missions.sides.medium import Medium, OpenField, SimulatedAir
 from missions.targets import herd
 from missions.training.weights import BUNDLED, read_weights
 from missions.vehicles import LinkedVehicle, Vehicle
@@ -250,8 +253,21 @@ def world(mission: Mission) -> World:
     )
 
 
+def radios(mission: Mission, bus: Bus, uids: Iterable[int]) -> list[Radio]:
+    """The radios of these agents."""
+    kind, keys = FieldRadio if mission.radio.mode == "field" else Radio, Keys(mission.name)
+    return [kind(bus, keys=keys, uid=uid) for uid in uids]
+
+
+def medium(mission: Mission, bus: Bus) -> Medium:
+    """What carries the agents' frames."""
+    if mission.radio.mode == "field":
+        return OpenField(mission.agents.count)
+    return SimulatedAir(air(mission, bus))
+
+
 def air(mission: Mission, bus: Bus) -> Air:
-    """The medium between the agents."""
+    """The simulated medium between the agents."""
     radio = mission.radio
     return Air(
         bus,

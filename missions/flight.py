@@ -11,10 +11,9 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from types import MappingProxyType
 
 from comms.clock import Pace
-from comms.keys import Keys
-from comms.radio import Radio
 from comms.session import Bus
 from comms.transport import Transport
+from missions import compose
 from missions.mission import Mission
 from missions.observation import Observer
 from missions.sides.agent import AgentSide, agent_sides
@@ -30,16 +29,15 @@ class Flight:
         transports: open, by uid: of the agents whose vehicles are not simulated.
 
     Attributes:
-        side: the world's side, whose targets, air and coverage are `world`, `air` and `coverage`.
+        side: the world's side, whose targets and coverage are `world` and `coverage`.
         crew: the agents' sides, by uid, whose brains and bodies are `agents` and `vehicles`.
     """
 
     def __init__(self, mission: Mission, bus: Bus, transports: Mapping[int, Transport] = MappingProxyType({})) -> None:
         self.mission = mission
         self.side = WorldSide(mission, bus)
-        self.world, self.air, self.coverage = self.side.world, self.side.air, self.side.coverage
-        keys = Keys(mission.name)
-        radios = [Radio(bus, keys=keys, uid=uid) for uid in range(mission.agents.count)]
+        self.world, self.coverage = self.side.world, self.side.coverage
+        radios = compose.radios(mission, bus, range(mission.agents.count))
         self.crew = agent_sides(mission, radios, n_targets=len(self.world.places), transports=transports)
         self.vehicles = [side.vehicle for side in self.crew]
 

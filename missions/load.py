@@ -25,7 +25,7 @@ from missions.keys import Key, allowed, chooser, find_key
 from missions.mission import Mission, Part
 from missions.overrides import Override, Setting, apply_override
 from missions.problems import Mark, MissionError, Path, Problem, did_you_mean, shown
-from missions.rules import FLIGHT_RULES, RULES, Rule
+from missions.rules import FLIGHT_RULES, RULES, STUDY_RULES, Rule
 
 LIBRARY = FilePath(__file__).parent / "library"
 
@@ -87,7 +87,7 @@ def checked_mission(document: Document, *, for_study: bool = False) -> Mission:
     Raises:
         MissionError: all mistakes in it, in the order of its lines.
     """
-    mission, problems = _check(document, RULES if for_study else RULES + FLIGHT_RULES)
+    mission, problems = _check(document, RULES + (STUDY_RULES if for_study else FLIGHT_RULES))
     problems = sorted([*document.problems, *problems], key=lambda problem: in_file_order(problem, document.source))
     if mission is None or problems:
         raise MissionError(problems)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import groupby
 
 from comms.arena import edge_distance_m
 from comms.chance import PLACE_AGENT
@@ -92,12 +93,26 @@ def _mates_hear_beyond_sight(mission: Mission) -> str | None:
     return None if mission.radio.range_m > farthest_m else f"more than {_range_words(mission, farthest_m)}"
 
 
-def _ideal_radio_loses_nothing(mission: Mission) -> str | None:
-    return None if mission.radio.mode == "sim" or mission.radio.loss == 0 else "0 where radio.mode is ideal"
+def _loss_is_simulated(mission: Mission) -> str | None:
+    radio = mission.radio
+    return None if radio.mode == "sim" or radio.loss == 0 else f"0 where radio.mode is {radio.mode}"
 
 
 def _ideal_radio_is_prompt(mission: Mission) -> str | None:
-    return None if mission.radio.mode == "sim" or mission.radio.latency_s == 0 else "0 where radio.mode is ideal"
+    return None if mission.radio.mode != "ideal" or mission.radio.latency_s == 0 else "0 where radio.mode is ideal"
+
+
+def _endpoints_are_of_radios(mission: Mission) -> str | None:
+    endpoints, count = mission.radio.endpoints, mission.agents.count
+    if not endpoints:
+        return None
+    if mission.radio.mode != "field":
+        return "none where radio.mode is not field"
+    if len(endpoints) != count:
+        return f"as many as agents.count ({count}); these are {len(endpoints)}"
+    parts = [endpoint for endpoint, _ in groupby(endpoints)]
+    twice = [endpoint for endpoint, times in Counter(parts).items() if times > 1]
+    return f"one endpoint for agents with numbers in a row; {twice[0]} comes again" if twice else None
 
 
 def _standoff_in_sight(mission: Mission) -> str | None:
@@ -237,6 +252,10 @@ def _answering_flies(mission: Mission) -> str | None:
     return None if mission.policy.answering == "distributed" else "distributed (optimal is for swarm study alone)"
 
 
+def _radio_is_simulated(mission: Mission) -> str | None:
+    return None if mission.radio.mode != "field" else "sim or ideal (field is for flights)"
+
+
 _SENSING = tuple(f"agents.sensing.{key}" for key in ("range_m", "field_of_view", "half_angle_deg"))
 _START = ("agents.deployment.radius_m", "agents.deployment.spacing_m", "agents.count", "seed")
 _ARENA = ("arena", "arena.radius_m", "arena.width_m", "arena.height_m")
@@ -252,8 +271,9 @@ RULES = (
     Rule("safety.fence.corners_m", _START, _corners_fence_the_start),
     Rule("policy.explore", (*_SENSING, *_ARENA), _search_has_few_cells),
     Rule("radio.range_m", _SENSING, _mates_hear_beyond_sight),
-    Rule("radio.loss", ("radio.mode",), _ideal_radio_loses_nothing),
+    Rule("radio.loss", ("radio.mode",), _loss_is_simulated),
     Rule("radio.latency_s", ("radio.mode",), _ideal_radio_is_prompt),
+    Rule("radio.endpoints", ("radio.mode", "agents.count"), _endpoints_are_of_radios),
     Rule("policy.standoff_m", _SENSING, _standoff_in_sight),
     Rule("policy.tag_lease_s", ("tick_s", "radio.latency_s"), _tag_lease_is_renewable),
     Rule("policy.help_lease_s", ("tick_s", "radio.latency_s"), _help_lease_is_renewable),
@@ -271,3 +291,5 @@ FLIGHT_RULES = (
     Rule("policy.answering", (), _answering_flies),
 )
 """What holds beside them where a mission is flown, and not in a study."""
+STUDY_RULES = (Rule("radio.mode", (), _radio_is_simulated),)
+"""What holds beside them in a study."""

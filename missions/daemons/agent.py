@@ -23,6 +23,8 @@ from comms.radio import Radio
 from comms.session import BusError, Network, Put, Question, open_client
 from comms.status import Activity
 from comms.transport import Transport
+from missions import compose
+from missions.daemons.airwaves import open_airwaves
 from missions.daemons.ending import Ending
 from missions.daemons.log import Log
 from missions.daemons.options import DaemonOptions, fingerprint
@@ -55,13 +57,17 @@ def agent(mission: Mission, uids: Sequence[int], options: DaemonOptions) -> int:
     ending = Ending(log.info)
     with ending.listening(leash=options.leash), open_transports(mission, uids) as transports:
         try:
-            with open_client(
-                options.endpoint,
-                lossless=options.lockstep,
-                patience_s=options.join_s,
-                credentials=options.credentials,
-            ) as bus:
-                daemon = _Daemon(mission, uids, bus, transports, options, ending=ending, log=log)
+            with (
+                open_client(
+                    options.endpoint,
+                    lossless=options.lockstep,
+                    patience_s=options.join_s,
+                    credentials=options.credentials,
+                ) as bus,
+                open_airwaves(mission, uids, options, bus) as airwaves,
+            ):
+                radios = compose.radios(mission, airwaves, uids)
+                daemon = _Daemon(mission, radios, bus, transports, options, ending=ending, log=log)
                 return daemon.run()
         except BusError as error:
             hint = f"does `swarm world {mission.name}` run there?"
@@ -88,7 +94,7 @@ class _Daemon:
     def __init__(
         self,
         mission: Mission,
-        uids: Sequence[int],
+        radios: Sequence[Radio],
         bus: Network,
         transports: dict[int, Transport],
         options: DaemonOptions,
@@ -103,11 +109,11 @@ class _Daemon:
         self._ending = ending
         self._log = log
         self._keys = Keys(mission.name)
-        self._mail = Mailbox(uids)
+        self._radios = {radio.uid: radio for radio in radios}
+        self._mail = Mailbox(self._radios)
         self._questions: queue.Queue[tuple[int, Question]] = queue.Queue(MAX_QUESTIONS)
-        self._radios = {uid: Radio(bus, keys=self._keys, uid=uid) for uid in uids}
         self._world_gone = False
-        self._seats = {uid: self._seat(uid, started_tick=0) for uid in uids}
+        self._seats = {uid: self._seat(uid, started_tick=0) for uid in self._radios}
 
     def run(self) -> int:
         """Tick until everybody here is over; the exit code."""
@@ -200,8 +206,8 @@ class _Daemon:
             question.answer(encode_answer(Answer(obeyed=obeyed, text=text, report=report)))
 
     def _await_frames(self, computer: Computer, cue: Cue) -> None:
-        due, deadline_s = computer.due(cue), monotonic() + FRAMES_LATE_S
-        while due is not None and computer.radio.waiting < due and monotonic() < deadline_s:
+        due, deadline_s, now_s = computer.due(cue), monotonic() + FRAMES_LATE_S, cue.tick * self._mission.tick_s
+        while due is not None and computer.radio.waiting(now_s) < due and monotonic() < deadline_s:
             sleep(FRAME_LOOK_S)
 
     def _on_world(self, key: str, is_there: bool) -> None:

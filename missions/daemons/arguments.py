@@ -78,6 +78,7 @@ def agent_options(parser: Parser) -> Parser:
     """Add what `swarm agent` has."""
     add_speed(parser)
     parser.add_argument("--id", required=True, metavar="N", help="its number from 0, or several: 0-4")
+    _add_insecure(parser)
     return _add_daemon(parser, "--connect", "where the world listens")
 
 

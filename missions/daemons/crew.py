@@ -12,13 +12,13 @@ from time import monotonic, sleep
 
 from msgspec import structs
 
-from comms.air import Air
 from comms.keys import Keys, sender
 from comms.mailbox import Mailbox
 from comms.session import Network
 from comms.status import Activity, Event, Level
 from missions.daemons.wire import OVER, decode_done, encode
 from missions.sides.exchange import HELLO_TICK, Cue, Done
+from missions.sides.medium import Medium
 
 LOOK_S = 0.2
 FRAME_LOOK_S = 1e-4
@@ -59,14 +59,14 @@ class RemoteCrew:
         *,
         keys: Keys,
         n_agents: int,
-        air: Air,
+        medium: Medium,
         patience: Patience,
         fingerprint: str,
         tell: Callable[[int, Event], None],
         stop: Callable[[], bool],
     ) -> None:
         self.lost: set[int] = set()
-        self._air = air
+        self._medium = medium
         self._patience = patience
         self._fingerprint = fingerprint
         self._tell = tell
@@ -189,9 +189,9 @@ class RemoteCrew:
 
     def _await_frames(self, n_frames: int) -> None:
         deadline_s = monotonic() + self._patience.tick_s
-        while self._air.waiting < n_frames:
+        while not self._medium.has(n_frames):
             if monotonic() > deadline_s:
-                raise RuntimeError(f"lockstep broken: {self._air.waiting} frames arrived of {n_frames}")
+                raise RuntimeError(f"lockstep broken: not all of {n_frames} frames arrived")
             sleep(FRAME_LOOK_S)
 
     def _on_change(self, key: str, is_there: bool) -> None:

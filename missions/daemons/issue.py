@@ -1,13 +1,16 @@
 """`swarm keys`: an authority of the swarm's own, and what it signs for the world, the recorder, people and agents.
 
-The authority's own key is thrown away: nobody can be added later, whoever finds the folder. For another swarm, or more
-agents, all are made anew.
+Radios that reach each other directly have an authority of their own: between them both ends are alike, and who is let
+in there must not pass for a world.
+
+The authorities' own keys are thrown away: nobody can be added later, whoever finds the folder. For another swarm, or
+more agents, all are made anew.
 """
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
@@ -17,7 +20,7 @@ from cryptography.hazmat.primitives.asymmetric import ec
 from cryptography.hazmat.primitives.serialization import Encoding, NoEncryption, PrivateFormat
 from cryptography.x509.oid import ExtendedKeyUsageOID, NameOID
 
-from comms.credentials import AUTHORITY, OPERATOR, Credentials, agents_name, agents_named
+from comms.credentials import AUTHORITY, OPERATOR, RADIO, Credentials, agents_name, agents_named
 from comms.keys import RECORDER, WORLD
 from missions.problems import InputError
 
@@ -25,6 +28,8 @@ VALID_DAYS = 825
 # A computer in the field may wake up with a clock that is behind.
 BEFORE_DAYS = 1
 _AUTHORITY_NAME = "swarm authority"
+Usage = list[x509.ObjectIdentifier]
+_BOTH_ENDS: Usage = [ExtendedKeyUsageOID.SERVER_AUTH, ExtendedKeyUsageOID.CLIENT_AUTH]
 
 
 def issue(folder: Path, *, n_agents: int, per_process: int, force: bool) -> list[str]:
@@ -38,15 +43,18 @@ def issue(folder: Path, *, n_agents: int, per_process: int, force: bool) -> list
         InputError: there are some, or the folder cannot be written.
     """
     groups = [range(first, min(first + per_process, n_agents)) for first in range(0, n_agents, per_process)]
-    names = [WORLD, RECORDER, OPERATOR, *map(agents_name, groups)]
+    agents = list(map(agents_name, groups))
+    names = [WORLD, RECORDER, OPERATOR, *agents]
+    radio = folder / RADIO
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-        present = sorted(file for file in folder.iterdir() if _is_ours(file))
+        present = sorted(file for where in (folder, radio) for file in where.glob("*") if _is_ours(file))
         if present and not force:
             raise InputError(f"{folder}: holds {present[0].name} already; allowed: another folder, or --force")
         for file in present:
             file.unlink()
-        for path, content in _files(folder, names):
+        radio.mkdir(mode=0o700, exist_ok=True)
+        for path, content in (*_files(folder, names, _end_of), *_files(radio, agents, lambda name: _BOTH_ENDS)):
             _write(path, content)
     except OSError as error:
         raise InputError(f"{folder}: cannot be written ({error})") from error
@@ -58,7 +66,12 @@ def _is_ours(file: Path) -> bool:
     return known and file.suffix in (".pem", ".key")
 
 
-def _files(folder: Path, names: Sequence[str]) -> Iterable[tuple[Path, bytes]]:
+def _end_of(name: str) -> Usage:
+    """Two kinds: an agent's certificate does not make a world, whatever it says."""
+    return [ExtendedKeyUsageOID.SERVER_AUTH if name == WORLD else ExtendedKeyUsageOID.CLIENT_AUTH]
+
+
+def _files(folder: Path, names: Sequence[str], usage: Callable[[str], Usage]) -> Iterable[tuple[Path, bytes]]:
     key = ec.generate_private_key(ec.SECP256R1())
     issuer = _named(_AUTHORITY_NAME)
     authority = (
@@ -69,12 +82,10 @@ def _files(folder: Path, names: Sequence[str]) -> Iterable[tuple[Path, bytes]]:
     yield folder / AUTHORITY, authority.public_bytes(Encoding.PEM)
     for name in names:
         credentials, own = Credentials(folder, name), ec.generate_private_key(ec.SECP256R1())
-        # Two kinds: an agent's certificate does not make a world, whatever it says.
-        usage = ExtendedKeyUsageOID.SERVER_AUTH if name == WORLD else ExtendedKeyUsageOID.CLIENT_AUTH
         certificate = (
             _certificate(_named(name), issuer, own.public_key())
             .add_extension(x509.BasicConstraints(ca=False, path_length=None), critical=True)
-            .add_extension(x509.ExtendedKeyUsage([usage]), critical=False)
+            .add_extension(x509.ExtendedKeyUsage(usage(name)), critical=False)
             .add_extension(x509.SubjectAlternativeName([x509.DNSName(name)]), critical=False)
             .sign(key, hashes.SHA256())
         )

@@ -69,6 +69,7 @@ def plan_processes(mission: Mission, options: ProcessOptions) -> tuple[ProcessPl
     speed = () if options.speed is None else ("--speed", options.speed)
     report = () if options.report is None else ("--report", options.report)
     connect = (*options.mission_words, "--connect", options.endpoint, *speed, *common)
+    unsecured = insecure if mission.radio.endpoints else ()
     recorded = () if options.record is None else ("--recorded",)
     plans = [
         ProcessPlan(
@@ -93,7 +94,7 @@ def plan_processes(mission: Mission, options: ProcessOptions) -> tuple[ProcessPl
         last = min(first + options.per_process, mission.agents.count) - 1
         uids = str(first) if first == last else f"{first}-{last}"
         name = f"agent {uids}" if first == last else f"agents {uids}"
-        identity, words = agents_name((first, last)), ("agent", *connect, "--leash", "--id", uids)
+        identity, words = agents_name((first, last)), ("agent", *connect, *unsecured, "--leash", "--id", uids)
         plans.append(ProcessPlan(name=name, identity=identity, words=words, restarts=options.restarts))
     if options.record is not None:
         words = ("record", *connect, "--record", str(options.record))

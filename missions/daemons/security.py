@@ -29,15 +29,18 @@ def endpoint_of(text: str, *, keys: Path | None) -> str:
     return _SECURED + text.partition("/")[2]
 
 
-def check_listening(text: str, *, keys: Path | None, insecure: bool) -> None:
+def check_listening(text: str, *, keys: Path | None, insecure: bool, where: str = "--listen") -> None:
     """See that nobody on the network can take part unasked.
+
+    Args:
+        where: what says so.
 
     Raises:
         InputError: an endpoint that other computers reach, without keys.
     """
     if keys is None and not insecure and not _is_local(text):
         raise InputError(
-            f"--listen: got {text}, where other computers may come in; allowed: --keys DIR, as `swarm keys DIR` makes "
+            f"{where}: got {text}, where other computers may come in; allowed: --keys DIR, as `swarm keys DIR` makes "
             "it, or --insecure to let in everybody"
         )
 
@@ -51,12 +54,22 @@ def credentials_of(keys: Path | None, name: str) -> Credentials | None:
     if keys is None:
         return None
     credentials = Credentials(keys, name)
-    if credentials.missing:
-        raise InputError(
-            f"--keys: {keys} has no {', '.join(file.name for file in credentials.missing)}; `swarm keys` makes them: "
-            "--agents N of them, --per-process N in one process"
-        )
+    check_complete(credentials)
     return credentials
+
+
+def check_complete(credentials: Credentials) -> None:
+    """See that the files are there.
+
+    Raises:
+        InputError: the folder does not hold them.
+    """
+    missing = ", ".join(file.name for file in credentials.missing)
+    if missing:
+        raise InputError(
+            f"--keys: {credentials.folder} has no {missing}; `swarm keys` makes them: --agents N of them, "
+            "--per-process N in one process"
+        )
 
 
 def check_all_known(credentials: Credentials, mission: Mission) -> None:

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from math import isinf
 
-from comms.credentials import OPERATOR, agents_name
+from comms.credentials import OPERATOR, Credentials, agents_name, agents_named
 from comms.keys import RECORDER, WORLD
 from comms.status import Level
+from missions.daemons.airwaves import own_endpoint
 from missions.daemons.options import DaemonOptions
 from missions.daemons.processes import ProcessOptions, ProcessPlan, plan_processes
-from missions.daemons.security import check_all_known, check_listening, credentials_of, endpoint_of
+from missions.daemons.security import check_all_known, check_complete, check_listening, credentials_of, endpoint_of
 from missions.load import load_mission
 from missions.mission import Mission
 from missions.options import LaunchOptions, speed_of
@@ -27,7 +28,7 @@ def world(mission: Mission, options: argparse.Namespace) -> int:
     from missions.daemons.world import world as run
 
     check_listening(options.endpoint, keys=options.keys, insecure=options.insecure)
-    speed = speed_of(mission, options.speed)
+    speed = _speed(mission, options.speed)
     daemon = _daemon(options, speed, WORLD)
     if daemon.credentials is not None:
         check_all_known(daemon.credentials, mission)
@@ -40,14 +41,16 @@ def agent(mission: Mission, options: argparse.Namespace) -> int:
     uids = uids_of(mission, options.id)
     from missions.daemons.agent import agent as run
 
-    return run(mission, uids, _daemon(options, speed_of(mission, options.speed), agents_name(uids)))
+    daemon = _daemon(options, _speed(mission, options.speed), agents_name(uids))
+    check_radio(mission, uids, daemon.credentials, insecure=options.insecure)
+    return run(mission, uids, daemon)
 
 
 def record(mission: Mission, options: argparse.Namespace) -> int:
     """Record a mission that other processes fly."""
     from missions.daemons.record import record as run
 
-    speed = speed_of(mission, options.speed)
+    speed = _speed(mission, options.speed)
     settings = LaunchOptions(speed=speed, record=options.record, view=options.view, web=options.web)
     if not settings.is_recorded:
         raise InputError("record: got nothing to do; allowed: --record, --view, --web, or several of them")
@@ -103,7 +106,7 @@ def processes(mission: Mission, options: argparse.Namespace) -> tuple[ProcessPla
     """What a launch with these options would start."""
     given = vars(options)
     speed = given.get("speed")
-    speed_of(mission, speed)
+    _speed(mission, speed)
     check_listening(options.listen, keys=options.keys, insecure=options.insecure)
     endpoint_of(options.listen, keys=options.keys)
     settings = ProcessOptions(
@@ -120,8 +123,39 @@ def processes(mission: Mission, options: argparse.Namespace) -> tuple[ProcessPla
     )
     plans = plan_processes(mission, settings)
     for plan in plans:
-        credentials_of(options.keys, plan.identity)
+        credentials = credentials_of(options.keys, plan.identity)
+        uids = agents_named(plan.identity)
+        if uids:
+            check_radio(mission, uids, credentials, insecure=options.insecure)
     return plans
+
+
+def check_radio(mission: Mission, uids: Sequence[int], credentials: Credentials | None, *, insecure: bool) -> None:
+    """See that the radio of these agents, if they have one of their own, is theirs, and that nobody comes in unasked.
+
+    Raises:
+        InputError: it is not, or somebody may.
+    """
+    if not mission.radio.endpoints:
+        return
+    endpoint = own_endpoint(mission, uids)
+    keys = None if credentials is None else credentials.folder
+    check_listening(endpoint, keys=keys, insecure=insecure, where="radio.endpoints")
+    if credentials is not None:
+        check_complete(credentials.of_radio)
+
+
+def _speed(mission: Mission, asked: float | None) -> float:
+    """As `speed_of`, for many processes: nobody waits for what goes from radio to radio.
+
+    Raises:
+        InputError: such a speed is not for the mission.
+    """
+    if not mission.radio.endpoints:
+        return speed_of(mission, asked)
+    if asked is not None and isinf(asked):
+        raise InputError("--speed: got max; allowed: a number: agents hear each other by radio.endpoints, in real time")
+    return speed_of(mission, asked or 1.0)
 
 
 def _mission_words(options: argparse.Namespace) -> Iterator[str]:

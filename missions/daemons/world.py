@@ -11,7 +11,7 @@ from math import inf
 
 from rich.console import Console
 
-from comms.access import Gate
+from comms.access import Gate, Place
 from comms.keys import WORLD, Keys
 from comms.session import BusError, Network, Question, open_router
 from missions.daemons.crew import CrewError, Patience, RemoteCrew
@@ -78,7 +78,10 @@ def world(mission: Mission, daemon: DaemonOptions, options: WorldOptions) -> int
 def _gate(mission: Mission, daemon: DaemonOptions) -> Gate | None:
     """Whom to let in: those whose certificates lie beside the world's own."""
     own = daemon.credentials
-    return None if own is None else Gate(own, Keys(mission.name), tuple(own.known))
+    if own is None:
+        return None
+    place = Place.FIELD if mission.radio.mode == "field" else Place.AIR
+    return Gate(own, Keys(mission.name), tuple(own.known), place)
 
 
 def _run(
@@ -97,7 +100,7 @@ def _run(
         bus,
         keys=keys,
         n_agents=mission.agents.count,
-        air=side.air,
+        medium=side.medium,
         patience=_patience(mission, daemon, options),
         fingerprint=fingerprint(mission),
         tell=lambda uid, event: log.events([event], who=f"agent-{uid}"),

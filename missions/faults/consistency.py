@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from functools import partial
 
 from missions.mission import Mission
-from missions.mission.faults import VEHICLE_FAULTS, Partition
+from missions.mission.faults import RADIO_FAULTS, VEHICLE_FAULTS, Partition
 from missions.rules import Rule
 
 
@@ -14,6 +14,8 @@ def fault_rules(mission: Mission) -> Iterator[Rule]:
     """Rules for each of a mission's faults."""
     for number, fault in enumerate(mission.faults):
         at = f"faults.{number}"
+        if isinstance(fault, RADIO_FAULTS):
+            yield Rule(f"{at}.kind", ("radio.mode",), _radio_is_simulated)
         if isinstance(fault, Partition):
             yield Rule(f"{at}.groups", ("agents.count",), partial(_groups_part_agents, fault))
             continue
@@ -30,6 +32,14 @@ def _groups_part_agents(fault: Partition, mission: Mission) -> str | None:
 def _among(uids: Iterable[int], mission: Mission) -> str | None:
     count = mission.agents.count
     return f"numbers from 0 to {count - 1}, below agents.count ({count})" if any(u >= count for u in uids) else None
+
+
+def _radio_is_simulated(mission: Mission) -> str | None:
+    return (
+        None
+        if mission.radio.mode != "field"
+        else "faults of another kind: where radio.mode is field, no radio is simulated"
+    )
 
 
 def _vehicles_are_simulated(uids: tuple[int, ...] | None, mission: Mission) -> str | None:

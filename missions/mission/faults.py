@@ -255,3 +255,5 @@ Faults = Annotated[
 ]
 VEHICLE_FAULTS = (Reboot, GpsLost, GpsGlitch, BatteryLow, WindChange)
 """Those of what a simulated vehicle is made of; a real one has its own."""
+RADIO_FAULTS = (Silence, Loss, Bursts, Latency, Partition)
+"""Those of a simulated radio; a real one has its own."""

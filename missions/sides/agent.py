@@ -18,7 +18,7 @@ from missions.faults.schedule import Schedule
 from missions.mission import Mission
 from missions.observation import AgentTruth
 from missions.sides.computer import Computer
-from missions.sides.exchange import HELLO_TICK, Cue, Done, LinkCount
+from missions.sides.exchange import HELLO_TICK, Cue, Done, LinkCount, RadioTally
 from missions.vehicles import LinkedVehicle, Vehicle
 from swarm_agent.agent import Agent, Output
 from swarm_agent.autopilot import Phase as PilotPhase
@@ -86,9 +86,9 @@ class AgentSide:
     def _think(self, cue: Cue, now_s: float) -> Output:
         ills, before = self._faults.at(cue.fault_tick), self.agent
         if self.uid in ills.dead:
-            return self.computer.go_out()
+            return self.computer.go_out(now_s)
         if self.uid in ills.frozen:
-            return self.computer.stand_still()
+            return self.computer.stand_still(now_s)
         output = self.computer.think(cue, now_s)
         if self.agent is not before:
             self._former = _count([before.pilot.endpoint], beside=self._former)
@@ -111,7 +111,7 @@ class AgentSide:
         return not self._faults.comes_back(self.uid, tick)
 
     def _done(self, tick: int, status: AgentStatus, *, spoke: bool = False, abandoned: bool = False) -> Done:
-        truth, pilot = self.vehicle.truth, self.agent.pilot
+        truth, pilot, heard = self.vehicle.truth, self.agent.pilot, self.computer.radio.count
         east, north, up = swap_enu_ned(truth.position_ned_m)
         pad = self._pad_m
         state = pilot.state
@@ -125,7 +125,7 @@ class AgentSide:
             spoke=spoke,
             ready=state.ready,
             unheard=abandoned or (state.link_lost and state.phase is PilotPhase.FAILED),
-            refused=self.computer.radio.count.refused,
+            radio=RadioTally(heard.sent, heard.bytes, heard.accepted, heard.refused),
             pilot=_count([pilot.endpoint], beside=self._former),
             vehicle=_count(
                 [channel.endpoint for channel in self.vehicle.channels]

@@ -47,16 +47,16 @@ class Computer:
             self.radio.send(output.frame)
         return output
 
-    def stand_still(self) -> Output:
+    def stand_still(self, now_s: float) -> Output:
         """A tick in which nothing runs: what arrives waits."""
-        self._backlog = self.radio.waiting
+        self._backlog = self.radio.waiting(now_s)
         return self._nothing()
 
-    def go_out(self) -> Output:
+    def go_out(self, now_s: float) -> Output:
         """A tick without power: what arrives is gone, and so is all that the agent knew."""
         self._out = True
         self._telemetry, self._backlog = b"", 0
-        self.radio.forget()
+        self.radio.forget(now_s)
         return self._nothing()
 
     def take(self, telemetry: bytes) -> None:
@@ -69,9 +69,9 @@ class Computer:
         return None if cue.frames is None else min(self._backlog + cue.frames, MAX_WAITING)
 
     def _check_inbox(self, cue: Cue, now_s: float) -> None:
-        due = self.due(cue)
-        if due is not None and self.radio.waiting != due:
-            got = f"{self.radio.waiting} frames arrived of {due}"
+        due, waiting = self.due(cue), self.radio.waiting(now_s)
+        if due is not None and waiting != due:
+            got = f"{waiting} frames arrived of {due}"
             raise RuntimeError(f"lockstep broken at {now_s:.1f} s, agent {self.agent.uid}: {got}")
 
     def _nothing(self) -> Output:

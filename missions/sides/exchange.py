@@ -49,6 +49,15 @@ class LinkCount(msgspec.Struct, frozen=True, array_like=True):
     dropped: int = 0
 
 
+class RadioTally(msgspec.Struct, frozen=True, array_like=True):
+    """An agent's radio so far: frames and bytes sent, frames heard and believed, frames refused."""
+
+    sent: int = 0
+    bytes: int = 0
+    heard: int = 0
+    refused: int = 0
+
+
 class Done(msgspec.Struct, frozen=True, kw_only=True, array_like=True):
     """One agent to the world: this tick is done.
 
@@ -57,7 +66,7 @@ class Done(msgspec.Struct, frozen=True, kw_only=True, array_like=True):
         spoke: it has sent a frame. ready: on its layer, waiting for the mission.
         unheard: its pilot has given up and its vehicle is not heard: it will not end otherwise.
         pilot, vehicle: MAVLink so far, of the agent and of its vehicle if that is simulated.
-        refused: frames that its radio has not believed so far.
+        radio: what went over its radio.
         leaves: it has landed, and is asked to end: nobody need wait for it any longer.
         fingerprint: in the first one, of the mission that it was given.
     """
@@ -71,6 +80,6 @@ class Done(msgspec.Struct, frozen=True, kw_only=True, array_like=True):
     unheard: bool = False
     pilot: LinkCount = LinkCount()
     vehicle: LinkCount = LinkCount()
-    refused: int = 0
+    radio: RadioTally = RadioTally()
     leaves: bool = False
     fingerprint: str = ""

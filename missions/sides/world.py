@@ -29,14 +29,15 @@ class WorldSide:
     """A mission without its agents, from power-on to landed.
 
     Attributes:
-        world: the targets. air: the medium. coverage: what was seen. dones: what the agents did last, by uid.
+        world: the targets. medium: what carries frames. coverage: what was seen.
+        dones: what the agents did last, by uid.
         explain_every_s: how often agents tell what they know; None: never.
     """
 
     def __init__(self, mission: Mission, bus: Bus) -> None:
         self.mission = mission
         self.world = compose.world(mission)
-        self.air = compose.air(mission, bus)
+        self.medium = compose.medium(mission, bus)
         self.coverage = Coverage()
         self.explain_every_s: float | None = None
         self.dones: Sequence[Done] = ()
@@ -97,7 +98,7 @@ class WorldSide:
                 frames=frames,
                 late_s=late_s,
             )
-            for seen, frames in zip(sightings, self.air.due, strict=True)
+            for seen, frames in zip(sightings, self.medium.due, strict=True)
         ]
 
     def conclude(self, dones: Sequence[Done]) -> Observation:
@@ -105,7 +106,7 @@ class WorldSide:
         before, aloft, tick = self.dones, self._aloft(), self._tick
         mission_tick = self._phases.mission_tick(tick)
         links = self._faults.at(self._phases.fault_tick(tick)).links
-        self.air.carry(tick, [done.truth.position_m[:2] for done in before], links)
+        self.medium.carry(tick, before, dones, links)
         if mission_tick is not None:
             present = sum(1 for place in self.world.places if place is not None)
             self.coverage.add(seen=sum(self.world.seen), present=present)
@@ -144,8 +145,8 @@ class WorldSide:
                 else TargetTruth(place[0], place[1], present=True, seen=seen[target] and on_duty)
                 for target, place in enumerate(targets)
             ),
-            links=self.air.links,
-            broken=self.air.broken,
+            links=self.medium.links,
+            broken=self.medium.broken,
             coverage=self.coverage.now if on_duty else None,
             coverage_mean=mean,
             utilization=None if mean is None else mean * len(targets) / len(dones),
@@ -155,13 +156,13 @@ class WorldSide:
         )
 
     def _totals(self, dones: Sequence[Done]) -> Totals:
-        count, pilots, vehicles = self.air.count, [done.pilot for done in dones], [done.vehicle for done in dones]
+        count, pilots, vehicles = self.medium.count, [done.pilot for done in dones], [done.vehicle for done in dones]
         return Totals(
             radio_sent=count.sent,
             radio_delivered=count.delivered,
             radio_out_of_range=count.out_of_range,
             radio_lost=count.lost,
-            radio_refused=count.refused + sum(done.refused for done in dones),
+            radio_refused=count.refused + sum(done.radio.refused for done in dones),
             radio_bytes=count.bytes,
             mavlink_sent=sum(end.sent for end in pilots),
             mavlink_received=sum(end.received for end in pilots),

@@ -20,6 +20,8 @@ LINKS = (
     "a list with a link for each agent: tcp:HOST:PORT, tcpin:HOST:PORT, udpin:HOST:PORT, udpout:HOST:PORT, "
     "serial:DEVICE:BAUD, pty or pty:PATH, or null"
 )
+ENDPOINTS = "a list with tcp/ADDRESS:PORT for each agent"
+NO_RADIO = "faults of another kind: where radio.mode is field, no radio is simulated"
 TRACKS = "the path of a CSV of tracks (--set targets.file=PATH)"
 
 KINDS = f"{', '.join(faults.KINDS[:-1])} or {faults.KINDS[-1]}"
@@ -147,11 +149,11 @@ CASES: dict[str, tuple[str, list[str]]] = {
         ':4: policy.answering: got "optimal"; allowed: distributed (optimal is for swarm study alone)',
     ]),
     "values that come later": (
-        "name: m\nvehicle: {kind: glider}\nradio: {mode: field}\npolicy: {name: shepherd}\n"
+        "name: m\nvehicle: {kind: glider}\nradio: {mode: smoke}\npolicy: {name: shepherd}\n"
         "agents: {sensing: {field_of_view: periscope}}\n",
         [
             ':2: vehicle.kind: got "glider"; allowed: simulated, ideal or link',
-            ':3: radio.mode: got "field"; allowed: sim or ideal',
+            ':3: radio.mode: got "smoke"; allowed: sim, ideal or field',
             ':4: policy.name: got "shepherd"; allowed: a-cmommt, b-cmommt-basic, b-cmommt or regions',
             ':5: agents.sensing.field_of_view: got "periscope"; allowed: omni, sector or camera',
         ],
@@ -330,6 +332,34 @@ CASES: dict[str, tuple[str, list[str]]] = {
         ":3: vehicle.wind.speed_m_s: got 9; "
         "allowed: with vehicle.wind.gust_m_s (1), less than vehicle.limits.speed_m_s (10)",
     ]),
+    "a field radio that is simulated": (
+        "name: m\nagents: {count: 2}\nradio: {mode: field, loss: 0.1, latency_s: 0.2}\n"
+        "faults: [{kind: loss, at_s: 1}, {kind: partition, at_s: 1, groups: [[0], [1]]}, "
+        "{kind: silence, at_s: 1, agents: [0]}]\n", [
+        ":3: radio.loss: got 0.1; allowed: 0 where radio.mode is field",
+        f':4: faults.0.kind: got "loss"; allowed: {NO_RADIO}',
+        f':4: faults.1.kind: got "partition"; allowed: {NO_RADIO}',
+        f':4: faults.2.kind: got "silence"; allowed: {NO_RADIO}',
+    ]),
+    "radios that are nowhere": (
+        "name: m\nradio:\n  mode: field\n  endpoints: [udp/h:1, tcp/h, tcp/:1, tcp/h:70000, 'tcp/h:1#x', 7]\n", [
+        f':4: radio.endpoints.0: got "udp/h:1"; allowed: {ENDPOINTS}',
+        f':4: radio.endpoints.1: got "tcp/h"; allowed: {ENDPOINTS}',
+        f':4: radio.endpoints.2: got "tcp/:1"; allowed: {ENDPOINTS}',
+        f':4: radio.endpoints.3: got "tcp/h:70000"; allowed: {ENDPOINTS}',
+        f':4: radio.endpoints.4: got "tcp/h:1#x"; allowed: {ENDPOINTS}',
+        f":4: radio.endpoints.5: got 7; allowed: {ENDPOINTS}",
+    ]),
+    "too few radios": ("name: m\nradio: {mode: field, endpoints: [tcp/h:1]}\n", [
+        ":2: radio.endpoints: got a list; allowed: as many as agents.count (10); these are 1",
+    ]),
+    "a radio that is shared by others between": (
+        "name: m\nagents: {count: 3}\nradio: {mode: field, endpoints: [tcp/h:1, tcp/h:2, tcp/h:1]}\n", [
+        ":3: radio.endpoints: got a list; allowed: one endpoint for agents with numbers in a row; tcp/h:1 comes again",
+    ]),
+    "radios in the air": ("name: m\nagents: {count: 1}\nradio: {endpoints: [tcp/h:1]}\n", [
+        ":3: radio.endpoints: got a list; allowed: none where radio.mode is not field",
+    ]),
     "an ideal radio that fails": ("name: m\nradio: {mode: ideal, loss: 0.1, latency_s: 0.2}\n", [
         ":2: radio.loss: got 0.1; allowed: 0 where radio.mode is ideal",
         ":2: radio.latency_s: got 0.2; allowed: 0 where radio.mode is ideal",
@@ -373,7 +403,8 @@ CASES: dict[str, tuple[str, list[str]]] = {
         ":2: radio.range_m: got -1; allowed: a number above 0",
     ]),
     "a misspelled value is not compared": ("name: m\nradio: {range: 30}\nagents: {sensing: {range_m: 25}}\n", [
-        ":2: radio.range: got an unknown key; allowed: mode, range_m, loss, latency_s; did you mean range_m?",
+        ":2: radio.range: got an unknown key; allowed: mode, range_m, endpoints, loss, latency_s; "
+        "did you mean range_m?",
     ]),
     "tracks without a file, and more": ("name: m\ntargets: {motion: tracks, start_s: -1}\nradio: {range_m: 5}\n", [
         f":2: targets.file: got nothing; allowed: {TRACKS}",

@@ -189,7 +189,7 @@ def test_an_agent_that_lands_in_the_mission_lets_go_of_its_targets_and_falls_sil
     assert all(status.tags == () and status.helping is None for status in landed)
     assert [fault.agent for fault in metrics.faults] == [3, 3]
     assert flight.complete
-    assert flight.air.count.sent < 4 * 600 - 300  # silent since it left
+    assert flight.side.medium.count.sent < 4 * 600 - 300  # silent since it left
 
 
 def test_replayed_tracks_come_and_go() -> None:

@@ -216,22 +216,29 @@ def test_a_secured_mission_of_many_processes_decides_what_one_does(folder: Path,
     assert one["radio"]["delivered"] > 0
 
 
+def contents(folder: Path) -> dict[Path, bytes]:
+    return {file: file.read_bytes() for file in folder.rglob("*") if file.is_file()}
+
+
 def test_credentials_are_for_nobody_elses_eyes_and_are_kept(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     folder = tmp_path / "new" / "keys"
     assert main(["keys", str(folder), "--agents", "5", "--per-process", "2"]) == 0
     assert folder.stat().st_mode & 0o777 == 0o700
-    before = {file: file.read_bytes() for file in folder.iterdir()}
+    assert (folder / "radio").stat().st_mode & 0o777 == 0o700
+    before = contents(folder)
     assert {file.stat().st_mode & 0o777 for file in before} == {0o600}
     names = ["agent-4", "agents-0-1", "agents-2-3", OPERATOR, RECORDER, WORLD]
     assert Credentials(folder, WORLD).known == sorted(names)
     assert not any(Credentials(folder, name).missing for name in names)
+    assert not any(Credentials(folder, name).of_radio.missing for name in names[:3])
 
     assert main(["keys", str(folder), "--agents", "2"]) == 2
     assert "allowed: another folder, or --force" in capsys.readouterr().err
-    assert {file: file.read_bytes() for file in folder.iterdir()} == before
+    assert contents(folder) == before
     (folder / "mine.pem").write_text("not of a swarm")
     assert main(["keys", str(folder), "--agents", "2", "--force"]) == 0
     assert Credentials(folder, WORLD).known == ["agent-0", "agent-1", "mine", OPERATOR, RECORDER, WORLD]
+    assert Credentials(folder / "radio", "agent-0").known == ["agent-0", "agent-1"]
     assert (folder / "world.key").read_bytes() != before[folder / "world.key"]
 
 
