@@ -13,10 +13,13 @@ from time import sleep
 from rich.console import Console
 from rich.live import Live
 from rich.table import Table
+from rich.text import Text
 
 from comms.credentials import Credentials
 from comms.keys import EVERYBODY_OF_ANY_MISSION, WORLD, Keys, somebody
 from comms.session import BusError, Network, open_client
+from comms.status import Activity
+from missions.colors import ACTIVITY_INKS, hex_color
 from missions.daemons.options import ENDPOINT
 from missions.daemons.orders import Answer, Report, Verb, decode_answer
 from missions.daemons.security import silence, why
@@ -28,6 +31,7 @@ ANSWER_S = 2.0
 ATTEMPTS = 3
 REFRESH_S = 0.5
 _NEVER_WRAP = 1000
+_RED = hex_color(ACTIVITY_INKS[Activity.LOST])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -110,54 +114,50 @@ def result_table(answers: Answers) -> Table:
     table = _table(("mission", "agent", "", "what"))
     for (mission, who), answer in answers.items():
         if answer is None:
-            table.add_row(mission, who, "failed", "does not answer", style="red")
+            table.add_row(mission, who, "failed", "does not answer", style=_RED)
         else:
             table.add_row(mission, who, "ok" if answer.obeyed else "failed", answer.text)
     return table
 
 
 def status_table(answers: Answers) -> Table:
-    """How every vehicle is."""
-    columns = (
-        "mission",
-        "agent",
-        "time",
-        "does",
-        "mode",
-        "battery",
-        "follows",
-        "hears",
-        "link",
-        "heard",
-        "late",
-        "busy",
-    )
-    table = _table(columns)
+    """How every vehicle is: its mission is named once, where there is one alone."""
+    missions = {mission for mission, _ in answers}
+    many = len(missions) > 1
+    table = _table((*(["mission"] if many else []), "who", *_COLUMNS))
+    table.title = None if many else next(iter(missions), None)
+    table.title_justify, table.title_style = "left", "bold"
     for (mission, who), answer in answers.items():
+        name = [mission] if many else []
         if answer is None or answer.report is None:
-            table.add_row(mission, who, "", "does not answer", style="red")
+            table.add_row(*name, f"A{who}", "", "does not answer", style=_RED)
         else:
-            table.add_row(mission, who, *_cells(answer.report))
+            table.add_row(*name, f"A{who}", *_cells(answer.report))
     return table
 
 
-def _cells(report: Report) -> Sequence[str]:
+_NUMBERS = frozenset({"time", "battery", "hears", "link", "heard", "late", "busy"})
+_COLUMNS = ("time", "does", "mode", "battery", "follows", "hears", "link", "heard", "late", "busy")
+
+
+def _cells(report: Report) -> Sequence[str | Text]:
     return (
-        f"{report.time_s:.1f} s",
-        report.activity.value,
+        f"{report.time_s:.1f}",
+        Text(report.activity.value, hex_color(ACTIVITY_INKS[report.activity])),
         report.flight_mode,
         "" if report.battery is None else f"{report.battery:.0%}",
         " ".join(f"T{target}" for target in report.tags),
         f"{report.mates}",
-        "" if report.link is None else f"{report.link:.1%}",
-        f"{report.heard_ago_s:.1f} s ago",
+        "" if report.link is None else f"{report.link:.0%}",
+        f"{report.heard_ago_s:.1f} s",
         f"{report.late_s * 1000:.0f} ms",
-        f"{report.busy_s * 1000:.1f} ms",
+        f"{report.busy_s * 1000:.0f} ms",
     )
 
 
 def _table(columns: Sequence[str]) -> Table:
-    table = Table(box=None, pad_edge=False)
+    # One blank between columns: a vehicle's status is a line of eighty letters.
+    table = Table(box=None, pad_edge=False, padding=(0, 1), collapse_padding=True)
     for column in columns:
-        table.add_column(column, no_wrap=True)
+        table.add_column(column, no_wrap=True, justify="right" if column in _NUMBERS else "left")
     return table

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import json
 import subprocess
+from io import StringIO
 from pathlib import Path
 
 import pytest
+from rich.console import Console
 
 from comms.status import Activity
-from missions.daemons.orders import Answer, Orders, Verb, decode_answer, encode_answer
+from missions.colors import ACTIVITY_INKS, hex_color
+from missions.daemons.fleet import status_table
+from missions.daemons.orders import Answer, Orders, Report, Verb, decode_answer, encode_answer
 from missions.sides.exchange import Cue
 from tests.missions.daemons.swarm import COMMAND, PATIENCE_S, ROOT, SMALL, free_endpoint, swarm
 
@@ -90,6 +94,24 @@ def test_a_swarm_is_held_resumed_landed_and_stopped(tmp_path: Path) -> None:
         assert (code, text.count("everybody comes home")) == (0, 1), text
         assert run.wait() == 0, run.output
     assert json.loads(file.read_text())["duration_s"] < 600.0
+
+
+def test_the_status_of_a_vehicle_is_a_line_of_eighty_letters_in_the_color_of_what_it_does() -> None:
+    report = Report(
+        time_s=1234.5, activity=Activity.CALLING, flight_mode="OFFBOARD", battery=1.0, tags=(10, 11), mates=12,
+        link=1.0, heard_ago_s=0.1, late_s=0.004, busy_s=0.0123,
+    )  # fmt: skip
+    answers = {("quickstart", "10"): Answer(obeyed=True, text="", report=report), ("quickstart", "11"): None}
+    console = Console(file=StringIO(), width=80, record=True, force_terminal=True, color_system="truecolor")
+    console.print(status_table(answers))
+    page = console.export_html(clear=False)
+    title, names, one, other = console.export_text().splitlines()
+    assert title.strip() == "quickstart"
+    assert names.split()[:3] == ["who", "time", "does"]
+    assert "…" not in one
+    assert one.rstrip().endswith("0.1 s 4 ms 12 ms")
+    assert "does not answer" in other
+    assert hex_color(ACTIVITY_INKS[Activity.CALLING]).lower() in page.lower()
 
 
 def test_where_nobody_is_nobody_is_told() -> None:
