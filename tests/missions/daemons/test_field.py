@@ -1,0 +1,165 @@
+"""Agents in processes of their own that hear each other directly: through the world, or from radio to radio."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from pathlib import Path
+from time import monotonic, sleep
+from typing import Any
+
+import pytest
+
+from comms.access import Gate, Place
+from comms.codec import encode
+from comms.credentials import Credentials, agents_name
+from comms.field import FieldRadio
+from comms.keys import Keys
+from comms.messages import Frame
+from comms.session import BusError, Network, open_client, open_peer, open_router
+from missions.cli import main
+from tests.missions.daemons.swarm import PATIENCE_S, SMALL, free_endpoint, swarm
+
+KEYS = Keys("tour")
+FIELD = ("--set", "radio.mode=field")
+FAULTS = "faults=[{kind: kill, at_s: 4, for_s: 5, agents: [1]}, {kind: freeze, at_s: 6, for_s: 4, agents: [2]}]"
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    pytest.importorskip("cryptography")
+    folder = tmp_path_factory.mktemp("keys")
+    assert main(["keys", str(folder), "--agents", "3"]) == 0
+    return folder
+
+
+def radios(n: int = 3) -> tuple[str, str]:
+    return "--set", f"radio.endpoints=[{', '.join(free_endpoint() for _ in range(n))}]"
+
+
+def until(holds: Callable[[], object]) -> None:
+    deadline_s = monotonic() + PATIENCE_S
+    while not holds():
+        assert monotonic() < deadline_s, "never came true"
+        sleep(0.01)
+
+
+def reported(file: Path, *words: str) -> dict[str, Any]:
+    with swarm("launch", "quickstart", *SMALL, *FIELD, *words, "--report", str(file)) as run:
+        assert run.wait() == 0, run.output
+    report: dict[str, Any] = json.loads(file.read_text())
+    return {key: value for key, value in report.items() if key not in ("timing", "recording")}
+
+
+@pytest.mark.parametrize("secured", [False, True], ids=["open", "secured"])
+def test_many_processes_decide_what_one_does(tmp_path: Path, folder: Path, secured: bool) -> None:
+    flown = ("--duration", "12", "--set", FAULTS)
+    keys = ("--keys", str(folder)) if secured else ()
+    one = reported(tmp_path / "one.json", *flown)
+    assert reported(tmp_path / "many.json", *flown, "--processes", "--listen", free_endpoint(), *keys) == one
+    assert one["radio"]["delivered"] > 0
+
+
+def test_frames_go_from_radio_to_radio(tmp_path: Path, folder: Path) -> None:
+    words = ("--processes", "--listen", free_endpoint(), "--speed", "10", "--duration", "8", "--keys", str(folder))
+    radio = reported(tmp_path / "report.json", *words, *radios())["radio"]
+    assert radio["sent"] > 0
+    assert radio["delivered"] > radio["sent"]  # to two mates each, but for what a slow computer drops
+    assert radio["refused"] == 0
+
+
+class Radios:
+    """Secured radios by name, each the session of a process; the later ones call the earlier ones."""
+
+    def __init__(self, folder: Path, stack: ExitStack) -> None:
+        self._folder, self._stack = folder, stack
+        self._names = tuple(agents_name([uid]) for uid in range(3))
+        self._endpoints = sorted(free_endpoint().replace("tcp", "tls") for _ in self._names)
+
+    def open(self, uid: int, *, name: str | None = None) -> Network:
+        gate = Gate(Credentials(self._folder, name or agents_name([uid])).of_radio, KEYS, self._names, Place.RADIO)
+        return self._stack.enter_context(open_peer(self._endpoints[uid], self._endpoints[:uid], gate=gate))
+
+
+@pytest.fixture
+def net(folder: Path) -> Iterator[Radios]:
+    with ExitStack() as stack:
+        yield Radios(folder, stack)
+
+
+def frame(src: int, seq: int) -> bytes:
+    return encode(Frame(src, seq, 0.0, 0.5, (0.0, 0.0, 10.0), (0.0, 0.0, 0.0)))
+
+
+@pytest.mark.parametrize("thief", [0, 1, 2], ids=["who is called", "who calls and is called", "who calls"])
+def test_a_stolen_key_does_not_speak_for_others_from_radio_to_radio(net: Radios, thief: int) -> None:
+    buses = [net.open(uid) for uid in range(3)]
+    victims = [uid for uid in range(3) if uid != thief]
+    heard: list[tuple[int, str]] = []
+    for uid in victims:
+        buses[uid].subscribe("swarm/@v1/**", lambda key, payload, uid=uid: heard.append((uid, key)))  # type: ignore[misc]
+        buses[uid].subscribe(KEYS.every_tx, lambda key, payload, uid=uid: heard.append((uid, key)))  # type: ignore[misc]
+    others = [KEYS.tx(uid) for uid in victims]
+    said = [buses[thief].publisher(key) for key in (*others, KEYS.cue(victims[0]), KEYS.tx(thief))]
+
+    def speak() -> bool:
+        for put in said:
+            put(frame(thief, 1))
+        return {uid for uid, _ in heard} == set(victims)
+
+    until(speak)
+    assert {key for _, key in heard} == {KEYS.tx(thief)}
+
+
+def test_a_radios_key_does_not_make_a_world(folder: Path) -> None:
+    endpoint, own = free_endpoint().replace("tcp", "tls"), Credentials(folder, agents_name([1])).of_radio
+    with (
+        open_router(endpoint, lossless=True, gate=Gate(own, KEYS, (agents_name([2]),))),
+        pytest.raises(BusError) as refused,
+        open_client(endpoint, lossless=True, patience_s=1.0, credentials=Credentials(folder, agents_name([2]))),
+    ):
+        pytest.fail("it has been taken for a world")
+    assert refused.value.refused
+
+
+def test_whose_frame_names_another_sender_is_not_believed(net: Radios) -> None:
+    victim, thief = FieldRadio(net.open(0), keys=KEYS, uid=0), net.open(1)
+    put, seq = thief.publisher(KEYS.tx(1)), 0
+
+    def speak() -> bool:
+        nonlocal seq
+        seq += 1
+        put(frame(2, seq))
+        return victim.waiting(0.1) > 0
+
+    until(speak)
+    assert victim.drain(0.1) == []
+    assert victim.count.bad > 0
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("agent", "narrow", "--id", "0-1", *FIELD, *radios(10)), "--id: got 0-1; allowed: 0, which shares tcp/"),
+        (("plan", "narrow", "--processes", "5", *FIELD, *radios(10)), "--id: got 0-4; allowed: 0, which shares tcp/"),
+        (("world", "narrow", "--speed", "max", *FIELD, *radios(10)), "--speed: got max; allowed: a number"),
+        (
+            ("agent", "narrow", "--id", "0", *FIELD, "--set", "radio.endpoints=[tcp/10.0.0.5:7448]"),
+            "as many as agents.count",
+        ),
+        (
+            ("agent", "narrow", "--id", "0", *FIELD, "--set", f"radio.endpoints={['tcp/10.0.0.5:7448'] * 10}"),
+            "--id: got 0; allowed: 0-9, which shares",
+        ),
+        (
+            ("agent", "narrow", "--id", "0-9", *FIELD, "--set", f"radio.endpoints={['tcp/10.0.0.5:7448'] * 10}"),
+            "radio.endpoints: got tcp/10.0.0.5:7448, where other computers may come in; allowed: --keys DIR",
+        ),
+    ],
+)
+def test_a_radio_that_cannot_be_is_refused(
+    words: tuple[str, ...], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([*words]) == 2
+    assert said in capsys.readouterr().err
