@@ -10,7 +10,7 @@ from collections import deque
 
 from comms.keys import Keys, sender
 from comms.messages import Frame
-from comms.radio import EARLY_S, MAX_WAITING, Radio, decode_once, kept
+from comms.radio import ANYBODY, EARLY_S, MAX_WAITING, Radio, Roster, decode_once, kept
 from comms.session import Bus
 
 _SAME_S = 0.001  # frames tell their time to the millisecond
@@ -19,9 +19,9 @@ _SAME_S = 0.001  # frames tell their time to the millisecond
 class FieldRadio(Radio):
     """Agent `uid`'s radio where all hear each other: it takes what its mates say, and not what it says itself."""
 
-    def __init__(self, bus: Bus, *, keys: Keys, uid: int) -> None:
+    def __init__(self, bus: Bus, *, keys: Keys, uid: int, roster: Roster = ANYBODY) -> None:
         self._said: deque[tuple[str, bytes]] = deque(maxlen=MAX_WAITING)
-        super().__init__(bus, keys=keys, uid=uid)
+        super().__init__(bus, keys=keys, uid=uid, roster=roster)
 
     def waiting(self, now_s: float) -> int:
         """How many frames have arrived that can be heard by now, and were not drained yet."""

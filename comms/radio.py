@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 from comms import codec
 from comms.keys import Keys, sender
@@ -18,6 +19,26 @@ MAX_WAITING = 4096  # frames; beyond it the oldest go: a radio that nobody drain
 decode_once = lru_cache(maxsize=1024)(codec.decode)
 
 
+class Roster(NamedTuple):
+    """Whom a mission has: agents and targets are numbered from 0."""
+
+    n_agents: int = codec.MAX_TARGETS
+    n_targets: int = codec.MAX_TARGETS
+
+    def has_all_of(self, frame: Frame) -> bool:
+        """Whether the mission has who speaks, and every target that is spoken of."""
+        if frame.src >= self.n_agents:
+            return False
+        for words in (frame.tags, frame.help_calls, frame.answers):
+            for word in words:
+                if word[0] >= self.n_targets:
+                    return False
+        return True
+
+
+ANYBODY = Roster()
+
+
 @dataclass(slots=True)
 class RadioCount:
     """What was sent so far, and what arrived: accepted frames, and those refused, by reason."""
@@ -26,6 +47,7 @@ class RadioCount:
     bytes: int = 0
     accepted: int = 0
     bad: int = 0  # not a frame, or not from whom its key says
+    strange: int = 0  # of an agent, or about a target, that the mission does not have
     stale: int = 0  # older than its own time to live
     early: int = 0  # from the future: what it claims would hold until then
     replayed: int = 0  # sequence number not above the last one heard from that sender
@@ -33,14 +55,19 @@ class RadioCount:
     @property
     def refused(self) -> int:
         """All that was not believed."""
-        return self.bad + self.stale + self.early + self.replayed
+        return self.bad + self.strange + self.stale + self.early + self.replayed
 
 
 class Radio:
-    """Agent `uid`'s radio on a bus: `send` a frame, `drain` what has arrived."""
+    """Agent `uid`'s radio on a bus: `send` a frame, `drain` what has arrived.
 
-    def __init__(self, bus: Bus, *, keys: Keys, uid: int) -> None:
+    Args:
+        roster: who can be heard, and heard of.
+    """
+
+    def __init__(self, bus: Bus, *, keys: Keys, uid: int, roster: Roster = ANYBODY) -> None:
         self.uid = uid
+        self._roster = roster
         self._put = bus.publisher(keys.tx(uid))
         self._arrived: deque[tuple[str, bytes]] = deque(maxlen=MAX_WAITING)
         self._last_seq: dict[int, int] = {}
@@ -71,6 +98,8 @@ class Radio:
             frame = decode_once(payload)
             if frame is None or frame.src != sender(key):
                 self.count.bad += 1
+            elif not self._roster.has_all_of(frame):
+                self.count.strange += 1
             elif now_s - frame.sent_at_s > frame.ttl_s:
                 self.count.stale += 1
             elif frame.sent_at_s - now_s > EARLY_S:

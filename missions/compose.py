@@ -11,7 +11,7 @@ from comms.chance import PLACE_AGENT
 from comms.field import FieldRadio
 from comms.frames import GeoPoint, enu_from_geo, geo_from_enu
 from comms.keys import Keys
-from comms.radio import Radio
+from comms.radio import Radio, Roster
 from comms.session import Bus
 from comms.signing import Signing, read_key
 from comms.transport import Transport
@@ -253,10 +253,11 @@ def world(mission: Mission) -> World:
     )
 
 
-def radios(mission: Mission, bus: Bus, uids: Iterable[int]) -> list[Radio]:
+def radios(mission: Mission, bus: Bus, uids: Iterable[int], n_targets: int) -> list[Radio]:
     """The radios of these agents."""
+    roster = Roster(mission.agents.count, n_targets)
     kind, keys = FieldRadio if mission.radio.mode == "field" else Radio, Keys(mission.name)
-    return [kind(bus, keys=keys, uid=uid) for uid in uids]
+    return [kind(bus, keys=keys, uid=uid, roster=roster) for uid in uids]
 
 
 def medium(mission: Mission, bus: Bus) -> Medium:

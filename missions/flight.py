@@ -37,8 +37,9 @@ class Flight:
         self.mission = mission
         self.side = WorldSide(mission, bus)
         self.world, self.coverage = self.side.world, self.side.coverage
-        radios = compose.radios(mission, bus, range(mission.agents.count))
-        self.crew = agent_sides(mission, radios, n_targets=len(self.world.places), transports=transports)
+        n_targets = len(self.world.places)
+        radios = compose.radios(mission, bus, range(mission.agents.count), n_targets)
+        self.crew = agent_sides(mission, radios, n_targets=n_targets, transports=transports)
         self.vehicles = [side.vehicle for side in self.crew]
 
     @property

@@ -66,7 +66,7 @@ def agent(mission: Mission, uids: Sequence[int], options: DaemonOptions) -> int:
                 ) as bus,
                 open_airwaves(mission, uids, options, bus) as airwaves,
             ):
-                radios = compose.radios(mission, airwaves, uids)
+                radios = compose.radios(mission, airwaves, uids, n_targets(mission))
                 daemon = _Daemon(mission, radios, bus, transports, options, ending=ending, log=log)
                 return daemon.run()
         except BusError as error:

@@ -14,7 +14,7 @@ from swarm_agent.bcmommt.step import Mind
 def hear(t: Table, p: Params, frames: Sequence[Frame]) -> None:
     """Enter a tick's frames into the table; what they say does not depend on their order.
 
-    Agents and targets that the table has no row for are not ours, and are skipped.
+    Agents and targets that the table has no row for are not ours, and are skipped: a radio has refused them already.
     """
     known = [frame for frame in frames if frame.src < len(t.mate_at_s)]
     for frame in known:  # first all that is withdrawn: it must not outrank what another repeats

@@ -10,8 +10,8 @@ from comms.air import Air, LinkModel
 from comms.codec import MAX_FRAME_BYTES, encode
 from comms.keys import Keys, sender
 from comms.link import delay_ticks, survives
-from comms.messages import Frame
-from comms.radio import Radio
+from comms.messages import Answer, Frame, HelpCall, Tag
+from comms.radio import Radio, Roster
 from comms.session import Bus, open_local_bus
 
 KEYS = Keys("test")
@@ -111,6 +111,8 @@ def test_what_cannot_be_believed_is_counted_and_dropped(bus: Bus) -> None:
     assert radio.count.stale == 1
 
 
+NOWHERE = (0.0, 0.0, 0.0, 0.0)
+CALL = HelpCall(2, *NOWHERE, 1.0, 0.0)
 TOO_LONG = encode(frame(1, seq=7)) + bytes(MAX_FRAME_BYTES)
 NAN = encode(frame(1, seq=7)).replace(b"\xcd\x27\x10", b"\xcb\x7f\xf8" + bytes(6))  # 10 m up, as a double that is none
 
@@ -121,14 +123,27 @@ NAN = encode(frame(1, seq=7)).replace(b"\xcd\x27\x10", b"\xcb\x7f\xf8" + bytes(6
         (TOO_LONG, "bad"),
         (NAN, "bad"),
         (encode(frame(2, seq=7)), "bad"),
+        (encode(frame(1, seq=7)._replace(tags=(Tag(3, *NOWHERE, 1.0),))), "strange"),
+        (encode(frame(1, seq=7)._replace(help_calls=(CALL, CALL._replace(target=3)))), "strange"),
+        (encode(frame(1, seq=7)._replace(answers=(Answer(40_000, 1.0),))), "strange"),
         (encode(frame(1, seq=7, sent_at_s=10.501)), "early"),
         (encode(frame(1, seq=7, sent_at_s=9.4)), "stale"),
         (encode(frame(1, seq=5, sent_at_s=10.0)), "replayed"),
     ],
-    ids=["too long", "not a number", "of somebody else", "of the future", "of the past", "replayed"],
+    ids=[
+        "too long",
+        "not a number",
+        "of somebody else",
+        "tag of no target",
+        "call for no target",
+        "answer",
+        "of the future",
+        "of the past",
+        "replayed",
+    ],
 )
 def test_a_hostile_frame_is_counted_and_changes_nothing(bus: Bus, wire: bytes, reason: str) -> None:
-    radio = Radio(bus, keys=KEYS, uid=0)
+    radio = Radio(bus, keys=KEYS, uid=0, roster=Roster(n_agents=2, n_targets=3))
     put = bus.publisher(KEYS.rx(0, 1))
     put(encode(frame(1, seq=5, sent_at_s=9.9)))
     assert len(radio.drain(10.0)) == 1
@@ -140,6 +155,14 @@ def test_a_hostile_frame_is_counted_and_changes_nothing(bus: Bus, wire: bytes, r
         encode(frame(1, seq=6, sent_at_s=10.4))
     )  # what it says itself is believed as before, from a clock that is ahead
     assert [heard.seq for heard in radio.drain(10.0)] == [6]
+
+
+def test_an_agent_that_the_mission_does_not_have_is_not_heard(bus: Bus) -> None:
+    radio = Radio(bus, keys=KEYS, uid=0, roster=Roster(n_agents=2, n_targets=3))
+    for src in (1, 2):
+        bus.publisher(KEYS.rx(0, src))(encode(frame(src, seq=1)._replace(help_calls=(CALL,))))
+    assert [heard.src for heard in radio.drain(0.1)] == [1]
+    assert radio.count.strange == 1
 
 
 def test_who_shouts_is_not_carried(bus: Bus) -> None:
