@@ -54,20 +54,30 @@ def _frames(seen: Observation) -> tuple[int, ...]:
 
 
 class Telemetry:
-    """Vectors over the agents, once a second: battery, altitude, speed; and how late every tick was."""
+    """Vectors over the agents, once a second: battery, altitude, speed; and how late each tick was."""
 
     def __init__(self, scene: Scene) -> None:
         self._n = scene.n_agents
+        self._late_s: float | None = None
 
     def rows(self, block: Block) -> Iterator[Rows]:
         """The telemetry."""
-        late = [(seen.tick_late_s,) for seen in block.observations]
-        yield Rows("/telemetry/tick_late", block, _vectors(late, 1))
+        late = self._late(block)
+        yield Rows("/telemetry/tick_late", late, _vectors([(seen.tick_late_s,) for seen in late.observations], 1))
         block = block.every(_STEP_S)
         known = Block(block.scene, [s for s in block.observations if any(a.battery is not None for a in s.statuses)])
         yield Rows("/telemetry/battery", known, _vectors(np.nan_to_num(known.batteries, nan=_UNKNOWN), self._n))
         yield Rows("/telemetry/altitude", block, _vectors(block.positions_m[..., 2], self._n))
         yield Rows("/telemetry/speed", block, _vectors(block.speeds_m_s, self._n))
+
+    def _late(self, block: Block) -> Block:
+        """The ticks at which lateness changed, and one a second: in lockstep no tick is ever late."""
+        told, seconds = [], {*block.every(_STEP_S).ticks.tolist()}
+        for seen in block.observations:
+            if seen.tick_late_s != self._late_s or seen.tick in seconds:
+                told.append(seen)
+            self._late_s = seen.tick_late_s
+        return Block(block.scene, told)
 
 
 def _vectors(rows: Sequence[Sequence[float | None]] | Floats, width: int) -> rr.ComponentColumnList:

@@ -30,8 +30,9 @@ class SeenGround:
 
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
-        self._vertices, _ = shapes.ground_mesh(scene.arena)
-        self._seen_at_step = np.full(len(self._vertices), _NEVER, dtype=np.int64)
+        vertices, _ = shapes.ground_mesh(scene.arena)
+        self._vertices = np.ascontiguousarray(vertices.T)
+        self._seen_at_step = np.full(len(vertices), _NEVER, dtype=np.int64)
         self._shape = shapes.ground_shape(scene.arena)
         old = ramp(palette.GROUND, palette.GROUND_REMEMBERED, _REMEMBERED + 1)
         new = ramp(palette.GROUND_REMEMBERED, palette.GROUND_FRESH, _FRESH - _REMEMBERED + 1)
@@ -50,14 +51,12 @@ class SeenGround:
         facing = [facings[tick] for tick in shown.ticks.tolist()]
         colors = list(map(self._paint, shown.times_ns / 1e9, shown.positions_m, facing, looking))
         columns = rr.Mesh3D.columns(vertex_colors=np.array(colors, dtype=np.uint32).ravel())
-        yield Rows("/world/seen", shown, columns.partition([len(self._vertices)] * len(shown)))
+        yield Rows("/world/seen", shown, columns.partition([self._vertices.shape[1]] * len(shown)))
 
     def _paint(self, now_s: float, positions_m: Floats, facing: Floats, looking: Mask) -> Colors:
         """The color of every vertex, after agents at (N, 3) have looked around."""
         step = floor(now_s / _FADE_STEP_S)
-        away = self._vertices[:, None, :] - positions_m[None, looking, :2]
-        within = self._sight.covers(away, facing[looking], looking).any(axis=1)
-        self._seen_at_step[within] = step
+        self._seen_at_step[self._sight.covers(self._vertices, positions_m[:, :2], facing, looking)] = step
         shade = np.maximum(_FRESH - (step - self._seen_at_step), _REMEMBERED)
         shade[self._seen_at_step == _NEVER] = 0
         return self._ramp[_softened(_softened(shade.reshape(self._shape))).ravel()]

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from math import isnan
 
 import rerun as rr
+from rerun import ComponentColumn
 
 from comms.mavlink import Endpoint, numbers_of
 from missions.recording.block import Block
@@ -13,7 +14,6 @@ from missions.recording.columns import Rows
 from missions.recording.scene import Scene
 
 _READER_ID = 255  # it never speaks: any id will do
-
 
 # Every vector of every vehicle is a row of its own: a large swarm's come less often.
 _STEP_S, _STEP_S_OF_AN_AGENT = 10.0, 0.5
@@ -45,18 +45,19 @@ class Messages:
             for message in self._reader.receive(frame):
                 path = f"/mavlink/{self._scene.agent_names[uid]}/{message.get_type()}"
                 if numbers := {name: _known(number) for name, number in numbers_of(message).items()}:
-                    yield from self._names(path, list(numbers))
-                    yield Rows(path, at, _vector(rr.Scalars.columns(scalars=list(numbers.values())), len(numbers)))
+                    yield Rows(path, at, [*self._names(path, list(numbers)), *_vector(numbers)])
         self._newest.clear()
 
-    def _names(self, path: str, names: list[str]) -> Iterator[Rows]:
-        if path not in self._named:
-            self._named.add(path)
-            yield Rows(path, None, _vector(rr.SeriesLines.columns(names=names), len(names)))
+    def _names(self, path: str, names: list[str]) -> Iterable[ComponentColumn]:
+        """With the first row, not beside it: in a file, what is static is a chunk of its own."""
+        if path in self._named:
+            return ()
+        self._named.add(path)
+        return rr.SeriesLines.columns(names=names).partition([len(names)])
 
 
-def _vector(columns: rr.ComponentColumnList, width: int) -> rr.ComponentColumnList:
-    return columns.partition([width])
+def _vector(numbers: Mapping[str, float]) -> Iterable[ComponentColumn]:
+    return rr.Scalars.columns(scalars=list(numbers.values())).partition([len(numbers)])
 
 
 def _known(value: float) -> float:

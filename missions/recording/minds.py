@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from math import hypot, pi
+from math import hypot
 from typing import NamedTuple
 
 import numpy as np
@@ -15,14 +15,13 @@ from comms.status import Activity, AgentStatus
 from missions.observation import Observation, TargetTruth
 from missions.recording import palette
 from missions.recording.block import Block, Floats, stored
-from missions.recording.columns import Rows, on_ground, strips
+from missions.recording.columns import Rows, on_ground, rings, strips
 from missions.recording.scene import Scene
 
 # An arrow as long as the way of so many seconds.
 _ARROW_S = 4.0
 # News older than this is shown with its age.
 _FRESH_S = 1.0
-_CIRCLE = np.column_stack([wave(np.linspace(0.0, 2 * pi, 41)) for wave in (np.cos, np.sin)])
 _HEADER = "| target | east, north m | known | follows | calls | lost in | comes | in | off by |\n" + "|---" * 9 + "|"
 
 
@@ -65,7 +64,8 @@ class Minds:
     def _columns(self, uid: int, told: Sequence[_Told]) -> list[rr.ComponentColumn]:
         return [
             *_points(self._scene, told),
-            *_lines(told, self._scene.sensing_ranges_m[uid]),
+            *_lines(told),
+            *_sight(told, self._scene.sensing_ranges_m[uid]),
             *rr.TextDocument.columns(text=[page(self._scene, one.status, one.observation) for one in told]),
         ]
 
@@ -91,20 +91,24 @@ def _points(scene: Scene, told: Sequence[_Told]) -> rr.ComponentColumnList:
     return points.partition(counts)
 
 
-def _lines(told: Sequence[_Told], range_m: float) -> rr.ComponentColumnList:
-    """How far it sees, where it wants to go, and from where each target is believed to be to where it is.
+def _sight(told: Sequence[_Told], range_m: float) -> rr.ComponentColumnList:
+    """How far it sees."""
+    centers = _flat([one.me for one in told])
+    colors = np.array([palette.ACTIVITY_INKS[one.status.activity] for one in told], dtype=np.uint32)
+    return rings(centers, range_m, colors, np.ones(len(told), dtype=np.int64))
 
-    All of it is one batch of lines: every further column of a mind costs as much as ten beliefs.
-    """
+
+def _lines(told: Sequence[_Told]) -> rr.ComponentColumnList:
+    """Where it wants to go, and from where each target is believed to be to where it is: one batch of lines."""
     lines: list[npt.NDArray[np.float64]] = []
     colors, counts = [], []
     for one in told:
         own = palette.ACTIVITY_INKS[one.status.activity]
         pairs = [(belief, truth) for belief in one.knowledge.beliefs if (truth := one.truth(belief)).present]
-        lines += [one.me + range_m * _CIRCLE, _arrow(one.me, one.knowledge.wanted_m_s)]
+        lines.append(_arrow(one.me, one.knowledge.wanted_m_s))
         lines += [np.array((belief.place_m, (truth.x_m, truth.y_m))) for belief, truth in pairs]
-        colors += [own, own, *(_color(one.status, belief) for belief, _ in pairs)]
-        counts.append(2 + len(pairs))
+        colors += [own, *(_color(one.status, belief) for belief, _ in pairs)]
+        counts.append(1 + len(pairs))
     lengths = np.array([len(line) for line in lines])
     return strips(
         _flat(np.concatenate(lines)), lengths, np.array(colors, dtype=np.uint32), np.array(counts, dtype=np.int64)

@@ -22,6 +22,8 @@ GRAPH_SIZE = 220.0
 
 _STEP_S = 1.0
 _SIGHT_ALPHA, _TRAIL_ALPHA = 200, 170
+# Degrees on the map end in zeros, which pack well: steps of 5 cm.
+_PER_DEGREE = 2.0**21
 # Rings of more agents than this hide more than they tell.
 _RINGED = 40
 _AROUND = np.linspace(0.0, 2 * pi, 21)
@@ -87,4 +89,5 @@ class Places:
     def _geo(self, places_m: npt.NDArray[np.floating[Any]]) -> npt.NDArray[np.float64]:
         """(..., 3) ENU as (P, 2) degrees of latitude and longitude."""
         points = [geo_from_enu(self._scene.home, (x, y, z)) for x, y, z in places_m.reshape(-1, 3).tolist()]
-        return np.array([(point.latitude_deg, point.longitude_deg) for point in points]).reshape(-1, 2)
+        degrees = np.array([(point.latitude_deg, point.longitude_deg) for point in points]).reshape(-1, 2)
+        return np.round(degrees * _PER_DEGREE) / _PER_DEGREE

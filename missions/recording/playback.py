@@ -118,7 +118,7 @@ def _played(path: Path, table: Table, *, torn: bool) -> Playback:
 def _observations(table: Table, facts: Facts) -> list[Observation]:
     # The ledger is written last: whatever has its totals is whole.
     ticks, totals = table.rows(ledger.TOTALS, "total")
-    late = dict(zip(*table.rows("/telemetry/tick_late", "Scalars:scalars"), strict=True))
+    late = table.held("/telemetry/tick_late", "Scalars:scalars", ticks, [0.0])
     phases = table.held(ledger.PHASE, "phase", ticks, [Phase.PREPARE.value])
     began = table.held(ledger.PHASE, "mission_began_at", ticks, [ledger.NOBODY])
     statuses = _statuses(table, ticks, facts)
@@ -147,7 +147,7 @@ def _observations(table: Table, facts: Facts) -> list[Observation]:
                 coverage=seen / present if on_duty and present else None,
                 coverage_mean=mean,
                 utilization=None if mean is None else mean * facts.targets / facts.agents,
-                tick_late_s=late.get(tick, [0.0])[0],
+                tick_late_s=late[row][0],
                 totals=Totals(**dict(zip(ledger.TOTAL_NAMES, totals[row], strict=False))),  # older ones have fewer
                 events=said.get(tick, ()),
             )

@@ -144,9 +144,11 @@ def _set_lines(tape: Tape, scene: Scene) -> None:
 
 
 def _set_minds(tape: Tape, scene: Scene) -> None:
+    sight = _ring(Sizes.of(scene), rr.components.FillMode.MajorWireframe, 1.1)
     for name in scene.agent_names:
         tape.log_static(
             f"/knowledge/{name}",
+            sight,
             rr.Points3D.from_fields(radii=_on_screen(4.0), show_labels=True),
             rr.LineStrips3D.from_fields(radii=_on_screen(1.1)),
             rr.TextDocument.from_fields(media_type=rr.MediaType.MARKDOWN),

@@ -133,9 +133,7 @@ def test_own_targets_are_believed_where_they_are(flown: tuple[Path, list[Observa
 
 def test_messages_are_the_autopilots_own(flown: tuple[Path, list[Observation]]) -> None:
     path, _ = flown
-    static = RrdReader(path).stream().filter(content="/mavlink/A2/GLOBAL_POSITION_INT", is_static=True).to_chunks()
-    columns = [pa.record_batch(chunk.to_record_batch()) for chunk in static]
-    names = next(c.column("SeriesLines:names").to_pylist()[0] for c in columns if "SeriesLines:names" in c.schema.names)
+    names, *_ = _rows(path, "/mavlink/A2/GLOBAL_POSITION_INT", "SeriesLines:names").values()
     rows = _rows(path, "/mavlink/A2/GLOBAL_POSITION_INT", "Scalars:scalars")
     assert rows
     home = load_mission("narrow").home.place
@@ -187,11 +185,11 @@ def test_the_ground_is_seen_as_the_sensor_sees(opening_deg: float) -> None:
     cos_half = cos(scene.half_opening_rad)
     places = np.array([[60 * (draw(1, k, axis, 990) - 0.5) for axis in range(2)] for k in range(400)])
     facing = np.array([(0.6, 0.8), (-1.0, 0.0)])
-    agents = np.array([True, True])
-    found = Sight(scene).covers(np.repeat(places[:, None, :], 2, axis=1), facing, agents)
-    for uid, range_m in enumerate(scene.sensing_ranges_m):
-        truly = [sees(x, y, range_m, *facing[uid], cos_half) for x, y in places]
-        assert found[:, uid].tolist() == truly
+    for looking in ((True, False), (False, True), (True, True)):
+        found = Sight(scene).covers(places.T, np.zeros((2, 2)), facing, np.array(looking))
+        eyes = [(*facing[uid], range_m) for uid, range_m in enumerate(scene.sensing_ranges_m) if looking[uid]]
+        truly = [any(sees(x, y, range_m, *ahead, cos_half) for *ahead, range_m in eyes) for x, y in places]
+        assert found.tolist() == truly
         assert 0 < sum(truly) < len(truly)
 
 
