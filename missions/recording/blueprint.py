@@ -9,7 +9,7 @@ import rerun.blueprint as rrb
 
 from missions.recording.event_view import event_log
 from missions.recording.eye import fitting_eye
-from missions.recording.minds_view import knowledge
+from missions.recording.minds_view import in_tens, knowledge
 from missions.recording.places import GRAPH_SIZE
 from missions.recording.scene import Scene
 from missions.recording.tape import TICK_LINE, TIME_LINE
@@ -24,7 +24,7 @@ def blueprint(scene: Scene, *, live: bool) -> rrb.Blueprint:
     """Tabs, from the mission to the raw numbers. A live viewer follows the newest tick; a review starts paused."""
     play_state = rrb.components.PlayState.Following if live else rrb.components.PlayState.Paused
     return rrb.Blueprint(
-        rrb.Tabs(_mission(scene), knowledge(scene), _telemetry(scene), _map(), _raw(), active_tab=0),
+        rrb.Tabs(_mission(scene), knowledge(scene), _telemetry(scene), _map(), _raw(scene), active_tab=0),
         rrb.BlueprintPanel(state="collapsed"),
         rrb.SelectionPanel(state="collapsed"),
         rrb.TimePanel(state="collapsed", timeline=TIME_LINE, play_state=play_state),
@@ -131,10 +131,17 @@ def _numbers(path: str) -> rrb.components.ComponentColumnSelector:
     return rrb.components.ComponentColumnSelector(entity_path=path, component="Scalars:scalars")
 
 
-def _raw() -> rrb.Container:
+def _raw(scene: Scene) -> rrb.Container:
     vectors = ("metrics/coverage", "metrics/utilization", "metrics/net", "telemetry/altitude", "telemetry/speed")
     select: list[Any] = [TICK_LINE, TIME_LINE, *(_numbers(f"/{path}") for path in vectors)]
     query = rrb.archetypes.DataframeQuery(timeline=TICK_LINE, select=select)
     numbers = rrb.DataframeView(origin="/", contents=["/metrics/**", "/telemetry/**"], name="Numbers", query=query)
     mission = rrb.TextDocumentView(origin="/mission", name="The mission")
-    return rrb.Horizontal(mission, numbers, column_shares=[2, 3], name="Raw")
+    vehicles = in_tens([_mavlink(name) for name in scene.agent_names])
+    tabs = rrb.Tabs(numbers, *vehicles, active_tab=0)
+    return rrb.Horizontal(mission, tabs, column_shares=[2, 3], name="Raw")
+
+
+def _mavlink(name: str) -> rrb.View:
+    """The newest of each kind of message that a vehicle sent."""
+    return rrb.TextDocumentView(origin=f"/mavlink/{name}", name=f"MAVLink of {name}")

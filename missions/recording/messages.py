@@ -1,4 +1,7 @@
-"""What the autopilots said: of each kind of MAVLink message the newest now and then, as numbers under `/mavlink`."""
+"""What the autopilots said: of each kind of MAVLink message the newest now and then, as numbers under `/mavlink`.
+
+`/mavlink/A4/ATTITUDE` is a vector of numbers, their names beside them; `/mavlink/A4` a page of all that is known of A4.
+"""
 
 from __future__ import annotations
 
@@ -17,11 +20,13 @@ _READER_ID = 255  # it never speaks: any id will do
 
 # Every vector of every vehicle is a row of its own: a large swarm's come less often.
 _STEP_S, _STEP_S_OF_AN_AGENT = 10.0, 0.5
+_MARKDOWN = rr.MediaType.MARKDOWN
+_HEADER = ("| message | by | numbers |", "|---|---|---|")
 _KIND = slice(7, 10)  # of a MAVLink 2 frame: its message id
 
 
 class Messages:
-    """Vectors of the numbers in each message, their names beside them: `/mavlink/A4/ATTITUDE`."""
+    """Vectors of the numbers in each message, and a page for each vehicle."""
 
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
@@ -29,6 +34,7 @@ class Messages:
         self._reader = Endpoint(system_id=_READER_ID)
         self._newest: dict[tuple[int, bytes], bytes] = {}  # frames by agent and kind
         self._named: set[str] = set()
+        self._lines: dict[int, dict[str, str]] = {}  # of each agent's page, by kind
 
     def rows(self, block: Block) -> Iterator[Rows]:
         """The newest message of each kind since the last step, and names for what is told for the first time."""
@@ -41,11 +47,17 @@ class Messages:
                 yield from self._told(at)
 
     def _told(self, at: Block) -> Iterator[Rows]:
+        names, time_s = self._scene.agent_names, at.observations[0].time_s
         for (uid, _), frame in self._newest.items():
             for message in self._reader.receive(frame):
-                path = f"/mavlink/{self._scene.agent_names[uid]}/{message.get_type()}"
+                kind = message.get_type()
+                path = f"/mavlink/{names[uid]}/{kind}"
                 if numbers := {name: _known(number) for name, number in numbers_of(message).items()}:
                     yield Rows(path, at, [*self._names(path, list(numbers)), *_vector(numbers)])
+                    self._lines.setdefault(uid, {})[kind] = _line(kind, time_s, numbers)
+        for uid in sorted({uid for uid, _ in self._newest}):
+            page = "\n".join((f"### {names[uid]}", "", *_HEADER, *sorted(self._lines.get(uid, {}).values())))
+            yield Rows(f"/mavlink/{names[uid]}", at, rr.TextDocument.columns(text=[page], media_type=[_MARKDOWN]))
         self._newest.clear()
 
     def _names(self, path: str, names: list[str]) -> Iterable[ComponentColumn]:
@@ -58,6 +70,13 @@ class Messages:
 
 def _vector(numbers: Mapping[str, float]) -> Iterable[ComponentColumn]:
     return rr.Scalars.columns(scalars=list(numbers.values())).partition([len(numbers)])
+
+
+def _line(kind: str, time_s: float, numbers: Mapping[str, float]) -> str:
+    told = ", ".join(
+        f"{name} {value:.0f}" if value.is_integer() else f"{name} {value:.5g}" for name, value in numbers.items()
+    )
+    return f"| {kind} | {time_s:.0f} s | {told} |"
 
 
 def _known(value: float) -> float:

@@ -44,13 +44,17 @@ class _Told(NamedTuple):
 
 
 class Minds:
-    """Draws what agents knew whenever they tell it: `/knowledge/A4` is the mind of A4."""
+    """Draws what agents knew whenever they tell it, and what was so: `/knowledge/A4` is the mind of A4.
+
+    The truth of those moments is kept once for all minds. A style of it in each mind's view would be the larger part
+    of a short recording.
+    """
 
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
 
     def rows(self, block: Block) -> Iterator[Rows]:
-        """A row for each agent that has told."""
+        """Rows for each agent that has told, and for the truth."""
         for uid, name in enumerate(self._scene.agent_names):
             told = [
                 _Told(seen, seen.statuses[uid], knowledge)
@@ -60,6 +64,14 @@ class Minds:
             if told:
                 at = Block(self._scene, [one.observation for one in told])
                 yield Rows(f"/knowledge/{name}", at, self._columns(uid, told))
+        yield from self._truth(Block(self._scene, [seen for seen in block.observations if _anybody_told(seen)]))
+
+    def _truth(self, block: Block) -> Iterator[Rows]:
+        present = block.present
+        targets = rr.Points3D.columns(positions=block.targets_m[present]).partition(present.sum(axis=1))
+        agents = rr.Points3D.columns(positions=block.positions_m.reshape(-1, 3))
+        yield Rows("/truth/agents", block, agents.partition([self._scene.n_agents] * len(block)))
+        yield Rows("/truth/targets", block, targets)
 
     def _columns(self, uid: int, told: Sequence[_Told]) -> list[rr.ComponentColumn]:
         return [
@@ -68,6 +80,10 @@ class Minds:
             *_sight(told, self._scene.sensing_ranges_m[uid]),
             *rr.TextDocument.columns(text=[page(self._scene, one.status, one.observation) for one in told]),
         ]
+
+
+def _anybody_told(seen: Observation) -> bool:
+    return any(status.knowledge is not None for status in seen.statuses)
 
 
 def _points(scene: Scene, told: Sequence[_Told]) -> rr.ComponentColumnList:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import rerun as rr
+from collections.abc import Sequence
+
 import rerun.blueprint as rrb
 
-from missions.recording import palette
 from missions.recording.event_view import event_log
 from missions.recording.eye import eye_above
 from missions.recording.scene import Scene
@@ -17,14 +17,18 @@ _GROUP = 10
 
 def knowledge(scene: Scene) -> rrb.Container:
     """A tab for each agent; those of a large swarm in tens."""
-    agents = [_mind(scene, name) for name in scene.agent_names]
-    if len(agents) > _TABS_IN_A_ROW:
-        agents = [
-            rrb.Tabs(*agents[first : first + _GROUP], active_tab=0, name=f"A{first} to A{first + len(group) - 1}")
-            for first in range(0, len(agents), _GROUP)
-            if (group := agents[first : first + _GROUP])
-        ]
-    return rrb.Tabs(*agents, active_tab=0, name="Knowledge")
+    return rrb.Tabs(*in_tens([_mind(scene, name) for name in scene.agent_names]), active_tab=0, name="Knowledge")
+
+
+def in_tens(agents: Sequence[rrb.View | rrb.Container]) -> Sequence[rrb.View | rrb.Container]:
+    """Tabs, one for each agent; those of a large swarm in groups."""
+    if len(agents) <= _TABS_IN_A_ROW:
+        return agents
+    groups = [agents[first : first + _GROUP] for first in range(0, len(agents), _GROUP)]
+    return [
+        rrb.Tabs(*group, active_tab=0, name=f"A{_GROUP * number} to A{_GROUP * number + len(group) - 1}")
+        for number, group in enumerate(groups)
+    ]
 
 
 def _mind(scene: Scene, name: str) -> rrb.Container:
@@ -36,16 +40,12 @@ def _mind(scene: Scene, name: str) -> rrb.Container:
 
 def _beliefs(scene: Scene, name: str) -> rrb.View:
     position, target = eye_above(scene)
-    agents, targets = (
-        rr.Points3D.from_fields(colors=[palette.TRUE], radii=[radius], show_labels=False) for radius in (-1.5, -2.5)
-    )
     return rrb.Spatial3DView(
         origin="/",
-        contents=[f"/knowledge/{name}", "/world/arena/**", "/world/agents/body", "/world/targets/body"],
+        contents=[f"/knowledge/{name}", "/truth/**", "/world/arena/**"],
         name="Believed in color, with its age; true in gray, targets larger",
         line_grid=rrb.LineGrid3D(visible=False),
         eye_controls=rrb.EyeControls3D(
             kind=rrb.Eye3DKind.Orbital, position=position, look_target=target, eye_up=(0.0, 1.0, 0.0)
         ),
-        overrides={"/world/agents/body": agents, "/world/targets/body": targets},
     )

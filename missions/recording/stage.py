@@ -144,6 +144,8 @@ def _set_lines(tape: Tape, scene: Scene) -> None:
 
 
 def _set_minds(tape: Tape, scene: Scene) -> None:
+    for path, radius in (("/truth/agents", 1.5), ("/truth/targets", 2.5)):
+        tape.log_static(path, rr.Points3D.from_fields(colors=[palette.TRUE], radii=_on_screen(radius)))
     sight = _ring(Sizes.of(scene), rr.components.FillMode.MajorWireframe, 1.1)
     for name in scene.agent_names:
         tape.log_static(

@@ -141,6 +141,22 @@ def test_messages_are_the_autopilots_own(flown: tuple[Path, list[Observation]]) 
         message = dict(zip(names, numbers, strict=True))
         assert message["lat"] / 1e7 == pytest.approx(home.latitude_deg, abs=1e-3)
         assert message["lon"] / 1e7 == pytest.approx(home.longitude_deg, abs=1e-3)
+    tick, (text,) = max(_rows(path, "/mavlink/A2", "TextDocument:text").items())
+    last = dict(zip(names, rows[tick], strict=True))
+    (line,) = (line for line in text.splitlines() if line.startswith("| GLOBAL_POSITION_INT |"))
+    assert f", lat {last['lat']:.0f}, lon {last['lon']:.0f}, " in line
+
+
+def test_the_truth_is_told_beside_what_was_believed(flown: tuple[Path, list[Observation]]) -> None:
+    path, observations = flown
+    told = [seen for seen in observations if any(status.knowledge for status in seen.statuses)]
+    agents, targets = (_rows(path, f"/truth/{who}", "Points3D:positions") for who in ("agents", "targets"))
+    assert [*agents] == [*targets] == [seen.tick for seen in told]
+    for seen in told:
+        places = [list(truth.position_m) for truth in seen.truths]
+        assert np.array(agents[seen.tick]) == pytest.approx(np.array(places), abs=1 / 64)
+        spots = [[target.x_m, target.y_m, 0.0] for target in seen.targets if target.present]
+        assert np.array(targets[seen.tick]) == pytest.approx(np.array(spots), abs=1 / 64)
 
 
 def test_frames_that_were_lost_are_drawn(flown: tuple[Path, list[Observation]]) -> None:
