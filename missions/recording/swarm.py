@@ -71,6 +71,7 @@ class Swarm:
         before = ends[:1] if self._trail_end_m is None else self._trail_end_m[None]
         starts = np.concatenate((before, ends[:-1]))
         self._trail_end_m = ends[-1]
-        steps = np.stack((starts, ends), axis=2)
-        counts = np.full(len(block), self._n)
-        yield Rows("/world/agents/trail", block, pieces(steps, block.colors.ravel(), counts))
+        # The way straight up says nothing, and hides what is behind it.
+        flying = doing(block, lambda activity: activity not in GROUNDED)
+        steps = np.stack((starts, ends), axis=2)[flying]
+        yield Rows("/world/agents/trail", block, pieces(steps, block.colors[flying], flying.sum(axis=1)))
