@@ -86,7 +86,7 @@ def _agents(keys: Keys, uids: Sequence[int], also_heard: Sequence[str]) -> Right
     return (
         (Deed.SAY, [key for uid in uids for key in (keys.tx(uid), keys.done(uid))]),
         (Deed.KNOW_LISTENERS, [keys.every_tx, keys.every_done]),
-        (Deed.HEAR, [*also_heard, *(key for uid in uids for key in (keys.every_rx(uid), keys.cue(uid)))]),
+        (Deed.HEAR, [*also_heard, *(key for uid in uids for key in (keys.rx(uid), keys.cue(uid)))]),
         (Deed.BE_THERE, [keys.alive(uid) for uid in uids]),
         (Deed.WATCH, [keys.alive(WORLD)]),
         (Deed.ANSWER, [keys.every_command(uid) for uid in uids]),

@@ -10,10 +10,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from comms import link
+from comms.bundle import MAX_FRAMES, Heard, bundle
 from comms.codec import MAX_FRAME_BYTES
 from comms.disturbance import CALM, Disturbance
 from comms.keys import Keys, sender
-from comms.session import Bus, Put
+from comms.session import Bus
 
 MAX_SPOKEN_PER_AGENT = 64  # frames in a tick; beyond it the oldest go
 
@@ -60,9 +61,7 @@ class Air:
         # Frames may come from another thread while others are carried.
         self._spoken: deque[tuple[int, bytes]] = deque(maxlen=MAX_SPOKEN_PER_AGENT * n_agents)
         self._under_way: dict[int, list[tuple[int, int, bytes]]] = {}  # by due tick: (dst, src, payload)
-        self._bus = bus
-        self._keys = keys
-        self._puts: dict[tuple[int, int], Put] = {}  # by (dst, src), declared when first needed
+        self._puts = [bus.publisher(keys.rx(uid)) for uid in range(n_agents)]
         self.count = AirCount()
         self.links: tuple[tuple[int, int], ...] = ()
         self.broken: tuple[tuple[int, int], ...] = ()
@@ -110,12 +109,15 @@ class Air:
                     broken.append((src, dst))
         count.lost += len(broken)
         self.broken = tuple(broken)
-        self.due = [0] * self._n_agents
         links = set()
+        arriving: list[list[Heard]] = [[] for _ in range(self._n_agents)]
         for dst, src, payload in self._under_way.pop(tick + 1, ()):
-            self._deliver(dst, src, payload)
+            arriving[dst].append((src, payload))
             links.add((src, dst) if src < dst else (dst, src))
-            self.due[dst] += 1
+        for put, frames in zip(self._puts, arriving, strict=True):
+            if frames:
+                put(bundle(frames))
+        self.due = [min(len(frames), MAX_FRAMES) for frames in arriving]
         delivered = sum(self.due)
         count.delivered += delivered
         self.links = tuple(sorted(links))
@@ -128,9 +130,3 @@ class Air:
             return model.loss, self._delay_ticks
         loss, later_s = disturbance.of(tick, src, dst, seed=self._seed)
         return 1.0 - (1.0 - model.loss) * (1.0 - loss), link.delay_ticks(model.latency_s + later_s, self._tick_s)
-
-    def _deliver(self, dst: int, src: int, payload: bytes) -> None:
-        put = self._puts.get((dst, src))
-        if put is None:
-            put = self._puts[dst, src] = self._bus.publisher(self._keys.rx(dst, src))
-        put(payload)

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from collections import deque
 
+from comms.bundle import Heard
 from comms.keys import Keys, sender
 from comms.messages import Frame
-from comms.radio import ANYBODY, EARLY_S, MAX_WAITING, Radio, Roster, decode_once, kept
+from comms.radio import ANYBODY, EARLY_S, MAX_WAITING, NOISE, Radio, Roster, decode_once, kept
 from comms.session import Bus
 
 _SAME_S = 0.001  # frames tell their time to the millisecond
@@ -20,7 +21,7 @@ class FieldRadio(Radio):
     """Agent `uid`'s radio where all hear each other: it takes what its mates say, and not what it says itself."""
 
     def __init__(self, bus: Bus, *, keys: Keys, uid: int, roster: Roster = ANYBODY) -> None:
-        self._said: deque[tuple[str, bytes]] = deque(maxlen=MAX_WAITING)
+        self._said: deque[Heard] = deque(maxlen=MAX_WAITING)
         super().__init__(bus, keys=keys, uid=uid, roster=roster)
 
     def waiting(self, now_s: float) -> int:
@@ -42,15 +43,16 @@ class FieldRadio(Radio):
         return keys.every_tx
 
     def _hear(self, key: str, payload: bytes) -> None:
-        if sender(key) != self.uid:
-            self._said.append((key, kept(payload)))
+        src = sender(key)
+        if src != self.uid:
+            self._said.append(NOISE if src is None else (src, kept(payload)))
 
     def _settle(self, now_s: float) -> None:
         """Let arrive what was sent before now; what is of this tick, or of a clock that is ahead, waits."""
         for _ in range(len(self._said)):
-            key, payload = self._said.popleft()
+            src, payload = self._said.popleft()
             queue = self._said if _is_ahead(payload, now_s) else self._arrived
-            queue.append((key, payload))
+            queue.append((src, payload))
 
 
 def _is_ahead(payload: bytes, now_s: float) -> bool:

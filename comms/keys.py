@@ -1,7 +1,7 @@
 """The table of topics: every key expression of a mission is built and parsed here, and nowhere else.
 
     swarm/@v1/<mission>/tx/<uid>             agent -> air: one frame per tick
-    swarm/@v1/<mission>/rx/<uid>/<src>       air -> agent: what got through
+    swarm/@v1/<mission>/rx/<uid>             air -> that agent alone: what got through, one bundle per tick
     swarm/@v1/<mission>/alive/<who>          liveliness token: of an agent (its uid), of the world, of the recorder
     swarm/@v1/<mission>/cmd/<uid>/<verb>     queryable of an agent: what people tell it, with a result
     swarm/@v1/<mission>/@sim/cue/<uid>       world -> that agent alone: a tick begins, and what its sensor sees
@@ -48,13 +48,9 @@ class Keys:
         """What the air subscribes to."""
         return f"{_ROOT}/{self.mission}/tx/*"
 
-    def rx(self, uid: int, src: int) -> str:
-        """Where agent `uid` hears agent `src`."""
-        return f"{_ROOT}/{self.mission}/rx/{uid}/{src}"
-
-    def every_rx(self, uid: int) -> str:
-        """What agent `uid` subscribes to: its own receiver and nobody else's."""
-        return f"{_ROOT}/{self.mission}/rx/{uid}/*"
+    def rx(self, uid: int) -> str:
+        """Where agent `uid` hears the others: its own receiver and nobody else's."""
+        return f"{_ROOT}/{self.mission}/rx/{uid}"
 
     def alive(self, who: int | str) -> str:
         """The token that says `who` is there: an agent's uid, WORLD or RECORDER."""
@@ -117,6 +113,6 @@ def verb_of(key: str) -> str:
 
 
 def sender(key: str) -> int | None:
-    """Whom a `tx`, `rx`, `done` or `alive` key names: its last chunk; None if that is not a number."""
+    """Whom a `tx`, `done` or `alive` key names: its last chunk; None if that is not a number."""
     chunk = key.rpartition("/")[2]
     return int(chunk) if chunk.isascii() and chunk.isdigit() and len(chunk) <= 9 else None

@@ -8,12 +8,15 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from comms import codec
-from comms.keys import Keys, sender
+from comms.bundle import MAX_FRAMES, Heard, unbundle
+from comms.keys import Keys
 from comms.messages import Frame
 from comms.session import Bus
 
 EARLY_S = 0.5  # clocks of computers that keep time by themselves may differ so much
-MAX_WAITING = 4096  # frames; beyond it the oldest go: a radio that nobody drains must not eat the memory
+MAX_WAITING = MAX_FRAMES  # beyond it the oldest go: a radio that nobody drains must not eat the memory
+
+NOISE: Heard = (0, b"")  # something that is no frame
 
 # Within one process a frame reaches several agents as the same bytes: decode it once.
 decode_once = lru_cache(maxsize=1024)(codec.decode)
@@ -46,7 +49,7 @@ class RadioCount:
     sent: int = 0
     bytes: int = 0
     accepted: int = 0
-    bad: int = 0  # not a frame, or not from whom its key says
+    bad: int = 0  # not a frame, or not of whom the air has heard it
     strange: int = 0  # of an agent, or about a target, that the mission does not have
     stale: int = 0  # older than its own time to live
     early: int = 0  # from the future: what it claims would hold until then
@@ -69,7 +72,7 @@ class Radio:
         self.uid = uid
         self._roster = roster
         self._put = bus.publisher(keys.tx(uid))
-        self._arrived: deque[tuple[str, bytes]] = deque(maxlen=MAX_WAITING)
+        self._arrived: deque[Heard] = deque(maxlen=MAX_WAITING)
         self._last_seq: dict[int, int] = {}
         self.count = RadioCount()
         bus.subscribe(self._heard_at(keys), self._hear)
@@ -94,9 +97,9 @@ class Radio:
         """The believable frames since the last call, sorted by (src, seq). Never raises on what arrived."""
         frames = []
         while self._arrived:
-            key, payload = self._arrived.popleft()
+            src, payload = self._arrived.popleft()
             frame = decode_once(payload)
-            if frame is None or frame.src != sender(key):
+            if frame is None or frame.src != src:
                 self.count.bad += 1
             elif not self._roster.has_all_of(frame):
                 self.count.strange += 1
@@ -112,10 +115,11 @@ class Radio:
         return fresh
 
     def _heard_at(self, keys: Keys) -> str:
-        return keys.every_rx(self.uid)
+        return keys.rx(self.uid)
 
     def _hear(self, key: str, payload: bytes) -> None:
-        self._arrived.append((key, kept(payload)))
+        heard = unbundle(payload)
+        self._arrived.extend([NOISE] if heard is None else [(src, kept(frame)) for src, frame in heard])
 
     def _is_new(self, frame: Frame) -> bool:
         if frame.seq <= self._last_seq.get(frame.src, -1):

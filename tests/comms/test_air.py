@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import pytest
 
 from comms.air import Air, LinkModel
+from comms.bundle import MAX_BUNDLE_BYTES, bundle, unbundle
 from comms.codec import MAX_FRAME_BYTES, encode
 from comms.keys import Keys, sender
 from comms.link import delay_ticks, survives
@@ -40,6 +41,12 @@ def everybody_speaks(
         radio.send(frame(uid, seq=tick + 1, sent_at_s=tick * 0.1))
     air.carry(tick, places)
     return [[heard.src for heard in radio.drain((tick + 1) * 0.1)] for radio in radios]
+
+
+def heard_of(bus: Bus, src: int) -> Callable[[bytes], None]:
+    """How the air lets agent 0 hear a frame of `src`."""
+    put = bus.publisher(KEYS.rx(0))
+    return lambda frame: put(bundle([(src, frame)]))
 
 
 def test_within_range_everything_arrives_and_beyond_it_nothing(bus: Bus) -> None:
@@ -91,14 +98,14 @@ def test_an_agent_hears_its_own_receiver_alone(bus: Bus) -> None:
 
 def test_frames_are_sorted_by_sender_and_number(bus: Bus) -> None:
     radio = Radio(bus, keys=KEYS, uid=0)
-    for src, seq in [(2, 1), (1, 4), (1, 3), (2, 2)]:
-        bus.publisher(KEYS.rx(0, src))(encode(frame(src, seq)))
+    for heard in [[(2, 1), (1, 4)], [(1, 3), (2, 2)]]:
+        bus.publisher(KEYS.rx(0))(bundle([(src, encode(frame(src, seq))) for src, seq in heard]))
     assert [(heard.src, heard.seq) for heard in radio.drain(0.1)] == [(1, 3), (1, 4), (2, 1), (2, 2)]
 
 
 def test_what_cannot_be_believed_is_counted_and_dropped(bus: Bus) -> None:
     radio = Radio(bus, keys=KEYS, uid=0)
-    put = bus.publisher(KEYS.rx(0, 1))
+    put = heard_of(bus, 1)
     put(encode(frame(1, seq=5)))
     put(b"rubbish")
     put(encode(frame(2, seq=6)))  # claims to be somebody else
@@ -144,7 +151,7 @@ NAN = encode(frame(1, seq=7)).replace(b"\xcd\x27\x10", b"\xcb\x7f\xf8" + bytes(6
 )
 def test_a_hostile_frame_is_counted_and_changes_nothing(bus: Bus, wire: bytes, reason: str) -> None:
     radio = Radio(bus, keys=KEYS, uid=0, roster=Roster(n_agents=2, n_targets=3))
-    put = bus.publisher(KEYS.rx(0, 1))
+    put = heard_of(bus, 1)
     put(encode(frame(1, seq=5, sent_at_s=9.9)))
     assert len(radio.drain(10.0)) == 1
     assert wire != encode(frame(1, seq=7))
@@ -160,9 +167,35 @@ def test_a_hostile_frame_is_counted_and_changes_nothing(bus: Bus, wire: bytes, r
 def test_an_agent_that_the_mission_does_not_have_is_not_heard(bus: Bus) -> None:
     radio = Radio(bus, keys=KEYS, uid=0, roster=Roster(n_agents=2, n_targets=3))
     for src in (1, 2):
-        bus.publisher(KEYS.rx(0, src))(encode(frame(src, seq=1)._replace(help_calls=(CALL,))))
+        heard_of(bus, src)(encode(frame(src, seq=1)._replace(help_calls=(CALL,))))
     assert [heard.src for heard in radio.drain(0.1)] == [1]
     assert radio.count.strange == 1
+
+
+@pytest.mark.parametrize(
+    "wire",
+    [
+        b"",
+        b"rubbish",
+        b"\xc0",
+        bundle([(1, b"x")])[:-1],
+        bundle([(-1, b"x")]),
+        b"\x91" * 5000,
+        bytes(MAX_BUNDLE_BYTES + 1),
+    ],
+    ids=["empty", "rubbish", "nothing", "cut", "of nobody", "deep", "too long"],
+)
+def test_what_is_no_bundle_is_counted_and_changes_nothing(bus: Bus, wire: bytes) -> None:
+    assert unbundle(wire) is None
+    radio = Radio(bus, keys=KEYS, uid=0)
+    bus.publisher(KEYS.rx(0))(wire)
+    assert radio.drain(0.1) == []
+    assert radio.count.bad == 1
+
+
+def test_a_bundle_is_opened_as_it_was_made() -> None:
+    heard = [(src, bytes([src]) * src) for src in range(200)]
+    assert unbundle(bundle(heard)) == heard
 
 
 def test_who_shouts_is_not_carried(bus: Bus) -> None:
@@ -183,9 +216,9 @@ def test_a_stranger_on_the_air_is_not_carried(bus: Bus) -> None:
 
 def test_keys_round_trip() -> None:
     assert KEYS.tx(7) == "swarm/@v1/test/tx/7"
-    assert KEYS.rx(7, 12) == "swarm/@v1/test/rx/7/12"
+    assert KEYS.rx(7) == "swarm/@v1/test/rx/7"
     assert sender(KEYS.tx(7)) == 7
-    assert sender(KEYS.rx(7, 12)) == 12
+    assert sender(KEYS.rx(7)) == 7
     assert sender("swarm/@v1/test/tx/x") is None
 
 

@@ -10,14 +10,14 @@ from comms.keys import RECORDER, WORLD, Keys, sender
 def test_a_key_of_somebody_is_read_back() -> None:
     keys = Keys("tour")
     for uid in (0, 7, 249):
-        for key in (keys.tx(uid), keys.rx(3, uid), keys.alive(uid), keys.cue(uid), keys.done(uid)):
+        for key in (keys.tx(uid), keys.rx(uid), keys.alive(uid), keys.cue(uid), keys.done(uid)):
             assert sender(key) == uid
     assert sender(keys.alive(WORLD)) is sender(keys.truth) is None
 
 
 def test_no_two_keys_are_the_same() -> None:
     keys = Keys("tour")
-    mine = [keys.tx(1), keys.rx(1, 1), keys.alive(1), keys.cue(1), keys.done(1), keys.command(1, "land")]
+    mine = [keys.tx(1), keys.rx(1), keys.alive(1), keys.cue(1), keys.done(1), keys.command(1, "land")]
     shared = [keys.alive(WORLD), keys.alive(RECORDER), keys.truth, keys.kept]
     assert len({*mine, *shared}) == len(mine) + len(shared)
 

@@ -23,7 +23,7 @@ from tests.missions.daemons.swarm import PATIENCE_S, SMALL, free_endpoint, swarm
 pytest.importorskip("cryptography")
 
 KEYS = Keys("tour")
-EVERYTHING = ("swarm/@v1/tour/**", "swarm/@v1/tour/@sim/**", KEYS.truth, KEYS.cue(2), KEYS.every_rx(2), KEYS.every_tx)
+EVERYTHING = ("swarm/@v1/tour/**", "swarm/@v1/tour/@sim/**", KEYS.truth, KEYS.cue(2), KEYS.rx(2), KEYS.every_tx)
 
 
 @pytest.fixture(scope="module")
@@ -93,7 +93,7 @@ def test_a_stolen_key_does_not_speak_for_others(net: Net) -> None:
     thief = net.client("agent-1")
     for who in (2, WORLD, RECORDER, 1):
         thief.declare_alive(KEYS.alive(who))
-    forbidden = [KEYS.tx(2), KEYS.done(2), KEYS.kept, KEYS.rx(2, 1), KEYS.cue(2), KEYS.truth]
+    forbidden = [KEYS.tx(2), KEYS.done(2), KEYS.kept, KEYS.rx(2), KEYS.cue(2), KEYS.truth]
     puts = [thief.publisher(key) for key in (*forbidden, KEYS.done(1), KEYS.tx(1))]
 
     def speak() -> bool:
@@ -112,7 +112,7 @@ def test_a_stolen_key_hears_its_own_alone(net: Net) -> None:
     thief = net.client("agent-1")
     for key in (*EVERYTHING, KEYS.cue(1)):
         thief.subscribe(key, lambda key, payload: heard.append((key, payload)))
-    said = (KEYS.truth, KEYS.cue(2), KEYS.rx(2, 0), KEYS.tx(2), KEYS.cue(1))
+    said = (KEYS.truth, KEYS.cue(2), KEYS.rx(2), KEYS.tx(2), KEYS.cue(1))
     puts = [net.router.publisher(key) for key in said]
 
     def speak() -> bool:
