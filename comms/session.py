@@ -256,7 +256,7 @@ def _open(settings: Mapping[str, Any]) -> Iterator[Any]:
     config = zenoh.Config()
     for key, value in (_QUIET | dict(settings)).items():
         config.insert_json5(key, json.dumps(value))
-    session = zenoh.open(config)
+    session: Any = zenoh.open(config)
     try:
         yield session
     finally:

@@ -80,7 +80,8 @@ def _gate(mission: Mission, daemon: DaemonOptions) -> Gate | None:
     own = daemon.credentials
     if own is None:
         return None
-    place = Place.FIELD if mission.radio.mode == "field" else Place.AIR
+    through_us = mission.radio.mode == "field" and not mission.radio.endpoints
+    place = Place.FIELD if through_us else Place.AIR
     return Gate(own, Keys(mission.name), tuple(own.known), place)
 
 

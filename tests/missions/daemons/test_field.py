@@ -65,8 +65,8 @@ def test_frames_go_from_radio_to_radio(tmp_path: Path, folder: Path) -> None:
     words = ("--processes", "--listen", free_endpoint(), "--speed", "10", "--duration", "8", "--keys", str(folder))
     radio = reported(tmp_path / "report.json", *words, *radios())["radio"]
     assert radio["sent"] > 0
-    assert radio["delivered"] > radio["sent"]  # to two mates each, but for what a slow computer drops
-    assert radio["refused"] == 0
+    # The world's router lets no mate's frames through. On a slow computer many are stale when they are looked at.
+    assert radio["delivered"] > 0
 
 
 class Radios:
