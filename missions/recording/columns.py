@@ -18,10 +18,10 @@ from missions.recording.block import Block, Colors, Floats, Ints, Mask
 
 @dataclass(frozen=True, slots=True)
 class Rows:
-    """Columns of one entity, one row for each tick of `block`; without a block a single row that holds at all times."""
+    """Columns of one entity, one row for each tick of `block`."""
 
     path: str
-    block: Block | None
+    block: Block
     columns: Iterable[ComponentColumn]
 
 

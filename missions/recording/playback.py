@@ -67,14 +67,14 @@ class Playback:
 
 
 def play_back(path: Path) -> Playback:
-    """Read a recording, or a `.rrd.part` of one whose recorder was killed.
+    """Read a recording, all parts of it, or a `.rrd.part` of one whose recorder was killed.
 
     Raises:
         InputError: there is no such file, or it is no recording of a mission.
     """
-    with whole(path) as (readable, torn):
+    with whole(path) as (files, torn):
         try:
-            table = Table(RrdReader(readable), READ)
+            table = Table([RrdReader(file) for file in files], READ)
         except (RuntimeError, ValueError) as error:
             raise InputError(f"{path}: got no recording ({_first_line(error)}); allowed: {_NOT_OURS}") from error
     try:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import os
 import queue
 import threading
 from pathlib import Path
@@ -19,7 +18,7 @@ from missions.recording.ground import SeenGround
 from missions.recording.ledger import Ledger
 from missions.recording.messages import Messages
 from missions.recording.minds import Minds
-from missions.recording.optimize import optimize
+from missions.recording.parts import Parts, usual_part_s
 from missions.recording.places import Places
 from missions.recording.relations import Relations
 from missions.recording.scene import Scene
@@ -36,6 +35,8 @@ _FLUSH_S, _LIVE_FLUSH_S = 1.0, 0.5
 _LAYERS = (
     SeenGround, Swarm, Targets, Relations, Lanes, EventLog, Metrics, Telemetry, Places, Minds, Messages, Ledger,
 )  # fmt: skip
+# These tell what changes: a new file begins with all of it told anew.
+_TELLING_CHANGES = (Targets, Lanes, Messages, Ledger)
 _log = logging.getLogger(__name__)
 
 
@@ -44,7 +45,7 @@ class RecordingError(OutputError):
 
 
 class Recorder:
-    """Records a mission into a file, `F.rrd.part` while it runs and `F.rrd` once it is whole.
+    """Records a mission into a file, `F.rrd.part` while it runs and `F.rrd` once it is whole; a long one into several.
 
     Args:
         path: the recording, in a folder that exists; a file of that name is replaced at the end. None keeps nothing.
@@ -52,9 +53,10 @@ class Recorder:
         view: show it in a viewer's window, live. web: serve a page that shows it, live, to browsers on this machine.
         lossless: wait when the recorder is behind, so that the recording is complete and repeats exactly (lockstep);
             else drop the observation and count it (real time).
+        part_s: the mission time that one file holds; None: as long as can be packed in half a gigabyte of memory.
 
     Attributes:
-        dropped: observations that came too fast. written_bytes: how long the file was before it was optimized.
+        dropped: observations that came too fast.
         server_url: where a viewer on this machine can join in, and page_url: the page for browsers; None if not live.
 
     A killed process loses at most the last second: `optimize` turns its `F.rrd.part` into a proper recording.
@@ -68,18 +70,18 @@ class Recorder:
         view: bool = False,
         web: bool = False,
         lossless: bool = True,
+        part_s: float | None = None,
     ) -> None:
         self.path = None if path is None else Path(path)
         self.dropped = 0
-        self.written_bytes = 0
         self.server_url: str | None = None
         self.page_url: str | None = None
         self._page: WebPage | None = None
         self._scene = scene
         self._view, self._web = view, web
         self._lossless = lossless
-        self._part = None if self.path is None else self.path.with_name(self.path.name + ".part")
-        self._tape = Tape(scene=scene)
+        self._parts = None if self.path is None else Parts(self.path, scene, part_s=part_s or usual_part_s(scene))
+        self._live: Tape | None = None
         self._queue: queue.Queue[Observation | None] = queue.Queue(max(2, round(_QUEUED_S * scene.ticks_per_s)))
         self._thread = threading.Thread(target=self._run, name="recorder", daemon=True)
         self._error: BaseException | None = None
@@ -91,17 +93,30 @@ class Recorder:
             RecordingError: the file cannot be written.
         """
         try:
-            if self._part is not None:
-                self._tape.open_file(self._part, blueprint(self._scene, live=False))
+            if self._parts is not None:
+                self._parts.begin()
             if self._is_live:
-                self.server_url = self._tape.open_server(blueprint(self._scene, live=True))
-            set_stage(self._tape, self._scene)
+                self._live = Tape(self._scene)
+                self.server_url = self._live.serve(blueprint(self._scene, live=True))
+                set_stage(self._live, self._scene)
         except Exception as error:
-            self._tape.close()
-            raise RecordingError(f"cannot record to {self._part}: {error}") from error
+            self._error = error
+            self._close()
+            where = "a viewer" if self._parts is None else self._parts.being_written
+            raise RecordingError(f"cannot record to {where}: {error}") from error
         self._show()
         self._thread.start()
         return self
+
+    @property
+    def written_bytes(self) -> int:
+        """How long the file was before it was optimized."""
+        return 0 if self._parts is None else self._parts.written_bytes
+
+    @property
+    def _tapes(self) -> list[Tape]:
+        files = [] if self._parts is None else [self._parts.tape]
+        return files if self._live is None else [*files, self._live]
 
     @property
     def _is_live(self) -> bool:
@@ -145,21 +160,23 @@ class Recorder:
         if self._page is not None:
             self._page.close()
         try:
-            self._tape.close()
+            self._close()
         except Exception as error:
             self._error = self._error or error
         if self._error is not None:
-            remains = "" if self._part is None else f", what there is lies in {self._part}"
+            remains = "" if self._parts is None else f", what there is lies in {self._parts.being_written}"
             raise RecordingError(f"recording failed{remains}: {self._error}") from self._error
-        if self._part is None or self.path is None:
+
+    def _close(self) -> None:
+        if self._live is not None:
+            self._live.close()
+        if self._parts is None:
             return
-        self.written_bytes = self._part.stat().st_size
-        try:
-            optimize(self._part, self.path)
-            self._part.unlink()
-        except RuntimeError as error:
-            _log.warning("%s; the recording is complete, but larger than need be", error)
-            os.replace(self._part, self.path)
+        if self._error is None:
+            self._parts.end()
+        else:
+            self._parts.tape.close()
+        self._parts.await_packed()
 
     def _run(self) -> None:
         try:
@@ -183,8 +200,15 @@ class Recorder:
             self._draw(layers, waiting)
 
     def _draw(self, layers: list[Layer], observations: list[Observation]) -> None:
-        block = Block(self._scene, observations)
+        if self._parts is not None and self._parts.is_full(observations[0].tick):
+            self._parts.end()
+            self._parts.begin()
+            layers[:] = [type(one)(self._scene) if isinstance(one, _TELLING_CHANGES) else one for one in layers]
+        block, tapes = Block(self._scene, observations), self._tapes
         for layer in layers:
             for rows in layer.rows(block):
-                self._tape.send(rows)
-        self._tape.flush()
+                if len(rows.block):
+                    for tape in tapes:
+                        tape.send(rows)
+        for tape in tapes:
+            tape.flush()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import chain
 from typing import Any, TypeVar
 
 import numpy as np
@@ -26,9 +27,9 @@ def held(at: Sequence[int], rows: Sequence[T], ticks: Iterable[int], before: T) 
 class Table:
     """The rows of a recording by entity and component, in the order of ticks."""
 
-    def __init__(self, reader: RrdReader, paths: Sequence[str]) -> None:
+    def __init__(self, readers: Iterable[RrdReader], paths: Sequence[str]) -> None:
         self._batches: dict[str, list[pa.RecordBatch]] = {}
-        for chunk in reader.stream().filter(content=list(paths)).to_chunks():
+        for chunk in chain.from_iterable(reader.stream().filter(content=list(paths)).to_chunks() for reader in readers):
             self._batches.setdefault(str(chunk.entity_path), []).append(pa.record_batch(chunk.to_record_batch()))
 
     def statics(self, path: str) -> Mapping[str, Any]:

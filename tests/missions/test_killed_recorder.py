@@ -49,7 +49,7 @@ def test_killed_at_any_moment_it_leaves_a_readable_file(tmp_path: Path, moment: 
                 child.kill()
                 break
     assert child.returncode == -signal.SIGKILL
-    with whole(path.with_name("killed.rrd.part")) as (repaired, torn):
+    with whole(path.with_name("killed.rrd.part")) as ((repaired,), torn):
         assert torn
         ticks = _ticks(repaired)
     assert ticks == list(range(len(ticks)))

@@ -52,12 +52,15 @@ def test_the_timeline_is_in_order_and_tells_every_loss(flown: Flown) -> None:
     assert sum("any more" in line.text for line in flown.review.lines) == len(flown.review.losses)
 
 
-def test_observations_come_back_as_they_were_made(tmp_path: Path) -> None:
+@pytest.mark.parametrize("part_s", [None, 14.0], ids=["in one file", "in three files"])
+def test_observations_come_back_as_they_were_made(tmp_path: Path, part_s: float | None) -> None:
     scene = toy_scene()
     made = list(toy_observations(scene, ticks=400))
-    with Recorder(tmp_path / "toy.rrd", scene=scene) as recorder:
+    with Recorder(tmp_path / "toy.rrd", scene=scene, part_s=part_s) as recorder:
         for seen in made:
             recorder.observe(seen)
+    names = ["toy.0002.rrd", "toy.0003.rrd", "toy.rrd"] if part_s else ["toy.rrd"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == names
     read_back = play_back(tmp_path / "toy.rrd").observations
     for old, new in zip(made, read_back, strict=True):
         assert (old.tick, old.phase, old.mission_tick, old.totals) == (
@@ -80,6 +83,31 @@ def test_observations_come_back_as_they_were_made(tmp_path: Path) -> None:
             assert (target.present, target.seen and target.present) == (same.present, same.seen)
             if target.present:
                 assert (same.x_m, same.y_m) == pytest.approx((target.x_m, target.y_m), abs=1 / 128 + 1e-6)
+
+
+def test_a_recorder_that_is_killed_in_a_later_file_leaves_all_of_them_to_be_read(tmp_path: Path) -> None:
+    scene = toy_scene()
+    with Recorder(tmp_path / "toy.rrd", scene=scene, part_s=10.0) as recorder:
+        for seen in toy_observations(scene, ticks=400):
+            recorder.observe(seen)
+    last = tmp_path / "toy.0004.rrd"
+    (tmp_path / "toy.0004.rrd.part").write_bytes(last.read_bytes()[:-100])
+    last.unlink()
+    (tmp_path / "toy.0005.rrd.part").touch()  # it was opened, and nothing was written
+    playback = play_back(tmp_path / "toy.rrd")
+    assert playback.torn
+    assert [seen.tick for seen in playback.observations] == list(range(len(playback.observations)))
+    assert 300 < len(playback.observations) <= 400
+
+
+def test_a_shorter_recording_of_the_same_name_takes_the_place_of_all_files_of_a_longer_one(tmp_path: Path) -> None:
+    scene = toy_scene()
+    for ticks in (400, 90):
+        with Recorder(tmp_path / "toy.rrd", scene=scene, part_s=10.0) as recorder:
+            for seen in toy_observations(scene, ticks=ticks):
+                recorder.observe(seen)
+    assert [path.name for path in tmp_path.iterdir()] == ["toy.rrd"]
+    assert len(play_back(tmp_path / "toy.rrd").observations) == 90
 
 
 def test_a_torn_recording_is_repaired_to_be_read_and_left_as_it_is(tmp_path: Path) -> None:
