@@ -8,20 +8,25 @@
 Between processes: one `open_router`, and an `open_client` in each of the others; or an `open_peer` in each, with nobody
 in the middle. With credentials both ends prove who they are (TLS, at a `tls/` endpoint), and a gate says who may do
 what. Constructors touch nothing: the session opens and closes with the `with` block.
+
+A link to another computer can be cut without either end being told. There a session whose other end is silent for
+LEASE_S is closed, with all that waits in it, and the client calls again and again: what then comes is of now. On one
+computer silence means that it is busy, and zenoh's own lease of 10 s holds.
 """
 
 from __future__ import annotations
 
 import json
-import socket
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
+from time import monotonic
 from typing import Any, Protocol
 
 import zenoh
 
 from comms.access import Gate
 from comms.credentials import Credentials
+from comms.endpoint import is_local, round_trip_s
 
 OnSample = Callable[[str, bytes], None]
 Put = Callable[[bytes], None]
@@ -152,6 +157,10 @@ def _direct(function: Callable[[Any], None]) -> Any:
     return zenoh.handlers.Callback(function, indirect=False)
 
 
+def _keep_quiet(error: BusError) -> None:
+    """Nobody wants to know."""
+
+
 @contextmanager
 def open_local_bus() -> Iterator[ZenohBus]:
     """One isolated session for one process: real zenoh pub/sub, no network at all, deliveries in order."""
@@ -169,7 +178,7 @@ def open_router(endpoint: str, *, lossless: bool, gate: Gate | None = None) -> I
     Raises:
         BusError: it cannot listen there.
     """
-    settings: dict[str, Any] = {"mode": "router", "listen/endpoints": [endpoint]}
+    settings: dict[str, Any] = {"mode": "router", "listen/endpoints": [endpoint]} | _lease(endpoint)
     if gate is not None:
         settings |= _proofs(gate.credentials, "listen") | {"access_control": gate.access_control()}
     with _open_listening(settings, endpoint) as session:
@@ -197,7 +206,7 @@ def open_peer(endpoint: str, mates: Sequence[str], *, gate: Gate | None = None) 
         "connect/exit_on_failure": False,
         "connect/retry": _RETRY,
         # A mate that stands still, or is out of reach, is given up so soon, and nothing waits for it.
-        "transport/link/tx/lease": 1000,
+        "transport/link/tx/lease": round(LEASE_S * 1000),
         "transport/unicast/open_timeout": 1000,
         "transport/unicast/accept_timeout": 1000,
         "open/return_conditions/connect_scouted": False,
@@ -211,31 +220,61 @@ def open_peer(endpoint: str, mates: Sequence[str], *, gate: Gate | None = None) 
 
 @contextmanager
 def open_client(
-    endpoint: str, *, lossless: bool, patience_s: float, credentials: Credentials | None = None
+    endpoint: str,
+    *,
+    lossless: bool,
+    patience_s: float,
+    credentials: Credentials | None = None,
+    tell: Callable[[BusError], None] = _keep_quiet,
 ) -> Iterator[ZenohBus]:
     """A session behind the router that listens there; after an outage it connects again by itself.
+
+    Args:
+        tell: hears, once and while it is still tried, that somebody is there who does not let us in.
 
     Raises:
         BusError: nobody who lets us in listens there in `patience_s`.
     """
+    deadline_s, told = monotonic() + patience_s, False
+    with ExitStack() as stack:
+        while True:
+            try:
+                session = stack.enter_context(_open(_calling(endpoint, credentials, deadline_s - monotonic())))
+                break
+            except zenoh.ZError as error:
+                refused = round_trip_s(endpoint, timeout_s=_LOOK_S) is not None
+                tried_s = patience_s if monotonic() >= deadline_s else _ATTEMPT_S
+                text = f"who listens on {endpoint} has not let us in for {tried_s:g} s"
+                if not refused:
+                    text = f"nobody has answered on {endpoint} for {tried_s:g} s ({_reason(error)})"
+                failure = BusError(text, refused=refused)
+                if monotonic() >= deadline_s:
+                    raise failure from error
+                if refused and not told:
+                    told = True
+                    tell(failure)
+        yield ZenohBus(session, lossless=lossless)
+
+
+def _calling(endpoint: str, credentials: Credentials | None, left_s: float) -> dict[str, Any]:
+    """The settings of one attempt to reach a router."""
     settings: dict[str, Any] = {
         "mode": "client",
         "connect/endpoints": [endpoint],
-        "connect/timeout_ms": round(patience_s * 1000),
+        "connect/timeout_ms": round(min(max(left_s, _LEAST_S), _ATTEMPT_S) * 1000),
         "connect/exit_on_failure": True,
-        "connect/retry": _RETRY,
+        "connect/retry": _RETRY_SOON,
     }
-    if credentials is not None:
-        settings |= _proofs(credentials, "connect")
-    with ExitStack() as stack:
-        try:
-            session = stack.enter_context(_open(settings))
-        except zenoh.ZError as error:
-            if _somebody_listens(endpoint):
-                text = f"who listens on {endpoint} has not let us in for {patience_s:g} s"
-                raise BusError(text, refused=True) from error
-            raise BusError(f"nobody has answered on {endpoint} for {patience_s:g} s ({_reason(error)})") from error
-        yield ZenohBus(session, lossless=lossless)
+    if not is_local(endpoint):
+        # A call that is not answered must not wait for TCP, which asks again after 1, 3, 7 and 15 s.
+        trip_s = round_trip_s(endpoint, timeout_s=_LOOK_S) or 0.0
+        answer_s = min(max(_CALL_S, _TRIPS_TO_OPEN * trip_s), _ATTEMPT_S)
+        settings |= _lease(endpoint) | {"transport/unicast/open_timeout": round(answer_s * 1000)}
+    return settings | ({} if credentials is None else _proofs(credentials, "connect"))
+
+
+def _lease(endpoint: str) -> dict[str, Any]:
+    return {} if is_local(endpoint) else {"transport/link/tx/lease": round(LEASE_S * 1000)}
 
 
 @contextmanager
@@ -276,25 +315,21 @@ def _proofs(credentials: Credentials, *ends: str) -> dict[str, Any]:
     }
 
 
-def _somebody_listens(endpoint: str) -> bool:
-    """Whether a TCP port there is open, whatever is spoken on it."""
-    host, _, port = endpoint.partition("/")[2].rpartition(":")
-    try:
-        with socket.create_connection((host.strip("[]"), int(port)), timeout=_LOOK_S):
-            return True
-    except (OSError, ValueError, OverflowError):
-        return False
-
-
 def _reason(error: Exception) -> str:
     """What zenoh says, without where in its source it says so."""
     return str(error).partition(" at /")[0]
 
 
+LEASE_S = 1.0
 _LOOK_S = 1.0
 # A session says as an error that frames came from before its last sleep, one by one.
 _SAYS = "error,zenoh::api::session=off"
+_ATTEMPT_S = 3.0  # then it is asked whether anybody is there
+_LEAST_S = 0.1
 _RETRY = {"period_init_ms": 100, "period_max_ms": 300, "period_increase_factor": 1.5}
+_RETRY_SOON = _RETRY | {"period_max_ms": 100}
+_CALL_S = 0.25  # on a link that is quick; TCP, TLS and zenoh take some round trips
+_TRIPS_TO_OPEN = 10
 _QUIET: dict[str, Any] = {
     "listen/endpoints": [],
     "connect/endpoints": [],

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from ipaddress import ip_address
 from pathlib import Path
 
 from comms.credentials import Credentials, agents_named
+from comms.endpoint import is_local
 from comms.session import BusError
 from missions.mission import Mission
 from missions.problems import InputError
 
 _PLAIN, _SECURED = "tcp/", "tls/"
-LOCAL_NAMES = ("localhost",)
 
 
 def endpoint_of(text: str, *, keys: Path | None) -> str:
@@ -38,7 +37,7 @@ def check_listening(text: str, *, keys: Path | None, insecure: bool, where: str 
     Raises:
         InputError: an endpoint that other computers reach, without keys.
     """
-    if keys is None and not insecure and not _is_local(text):
+    if keys is None and not insecure and not is_local(text):
         raise InputError(
             f"{where}: got {text}, where other computers may come in; allowed: --keys DIR, as `swarm keys DIR` makes "
             "it, or --insecure to let in everybody"
@@ -104,14 +103,3 @@ def silence(credentials: Credentials | None) -> str:
     if credentials is None:
         return ""
     return f" (or {credentials.certificate} is not what its name says: what its owner may not say or hear is dropped)"
-
-
-def _is_local(text: str) -> bool:
-    protocol, _, address = text.partition("/")
-    host = address.partition("?")[0].partition("#")[0].rpartition(":")[0].strip("[]")
-    if protocol not in ("tcp", "tls"):
-        return False
-    try:
-        return ip_address(host).is_loopback
-    except ValueError:
-        return host in LOCAL_NAMES

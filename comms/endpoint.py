@@ -1,0 +1,37 @@
+"""Endpoints, as zenoh writes them: `tcp/10.0.0.5:7447`, `tls/[::1]:7447`."""
+
+from __future__ import annotations
+
+import socket
+from ipaddress import ip_address
+from time import monotonic
+
+LOCAL_NAMES = ("localhost",)
+
+
+def is_local(endpoint: str) -> bool:
+    """Whether it surely stays on this computer: no cable to be cut, and nobody else comes in."""
+    if endpoint.partition("/")[0] not in ("tcp", "tls"):
+        return False
+    host = _address(endpoint)[0]
+    try:
+        return ip_address(host).is_loopback
+    except ValueError:
+        return host in LOCAL_NAMES
+
+
+def round_trip_s(endpoint: str, *, timeout_s: float) -> float | None:
+    """How long a TCP port there takes to open, whatever is spoken on it; None if it does not in time."""
+    host, port = _address(endpoint)
+    began_s = monotonic()
+    try:
+        with socket.create_connection((host, int(port)), timeout=timeout_s):
+            return monotonic() - began_s
+    except (OSError, ValueError, OverflowError):
+        return None
+
+
+def _address(endpoint: str) -> tuple[str, str]:
+    address = endpoint.partition("/")[2].partition("?")[0].partition("#")[0]
+    host, _, port = address.rpartition(":")
+    return host.strip("[]"), port
