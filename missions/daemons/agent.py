@@ -1,47 +1,51 @@
 """`swarm agent`: one agent with its vehicle in a process of its own, or several on one session.
 
 It says hello until the world cues it, and then does a tick for each cue. Asked to end, it flies home, lands, and goes.
-If the world goes first, it flies home on its own clock.
+While the world is silent it holds still on its own clock (`seat`, `contact`) and says hello; after the mission's
+`agents.alone_s` it flies home, and so it does when the world ends.
 """
 
 from __future__ import annotations
 
 import queue
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
 from functools import partial
+from math import inf
 from time import monotonic, sleep
-
-from msgspec import structs
 
 from comms.clock import Lockstep, Pace, RealTime
 from comms.credentials import agents_name
+from comms.endpoint import is_local
 from comms.keys import WORLD, Keys, sender, verb_of
 from comms.mailbox import Mailbox
 from comms.radio import Radio
-from comms.session import BusError, Network, Put, Question, open_client
-from comms.status import Activity
+from comms.session import BusError, Network, Question, open_client
+from comms.status import Activity, Event
 from comms.transport import Transport
 from missions import compose
 from missions.daemons.airwaves import open_airwaves
 from missions.daemons.ending import Ending
 from missions.daemons.log import Log
 from missions.daemons.options import DaemonOptions, fingerprint
-from missions.daemons.orders import Answer, Orders, Verb, Watch, encode_answer
+from missions.daemons.orders import Answer, Verb, encode_answer
+from missions.daemons.seat import Seat
 from missions.daemons.security import silence, why
-from missions.daemons.wire import OVER, decode_cue, encode
+from missions.daemons.wire import OVER, decode_cue
 from missions.links import open_transports
 from missions.mission import Mission
-from missions.sides.agent import AgentSide, agent_sides
+from missions.sides.agent import agent_sides
 from missions.sides.computer import Computer
-from missions.sides.exchange import Cue, Done
+from missions.sides.exchange import Cue
 from missions.sides.phases import RETURN_LIMIT_S
 from missions.targets import n_targets
 
 DONE, FAILED, STOPPED = 0, 1, 130
 
-HELLO_EVERY_S = 0.2
+HELLO_EVERY_S = 0.1
+MOST_AT_ONCE = 20  # ticks that are made up for before it listens again
+# A world on this computer that is gone for so long has ended, and it is not we who were too busy to keep in touch.
+ENDED_S = 1.0
 FRAMES_LATE_S = 10.0  # frames that are under way and do not come for so long are lost
 FRAME_LOOK_S = 1e-4
 MAX_QUESTIONS = 100
@@ -63,6 +67,7 @@ def agent(mission: Mission, uids: Sequence[int], options: DaemonOptions) -> int:
                     lossless=options.lockstep,
                     patience_s=options.join_s,
                     credentials=options.credentials,
+                    tell=lambda error: log.error(f"{why(error, options.credentials, otherwise='')}; still trying"),
                 ) as bus,
                 open_airwaves(mission, uids, options, bus) as airwaves,
             ):
@@ -75,19 +80,6 @@ def agent(mission: Mission, uids: Sequence[int], options: DaemonOptions) -> int:
         except KeyboardInterrupt:
             log.error("ended at once, in the air or not")
     return STOPPED if ending.interrupted else FAILED
-
-
-@dataclass(slots=True)
-class _Seat:
-    """One agent of this process: its side, where its dones go, and how far it is."""
-
-    side: AgentSide
-    put: Put
-    last: Done
-    orders: Orders = field(default_factory=Orders)
-    watch: Watch = field(default_factory=Watch)
-    met: bool = False  # the world has cued it
-    over: bool = False
 
 
 class _Daemon:
@@ -112,43 +104,57 @@ class _Daemon:
         self._radios = {radio.uid: radio for radio in radios}
         self._mail = Mailbox(self._radios)
         self._questions: queue.Queue[tuple[int, Question]] = queue.Queue(MAX_QUESTIONS)
-        self._world_gone = False
+        self._greeted_at_s = -inf
+        self._gone_at_s: float | None = None
+        self._is_closing = False
         self._seats = {uid: self._seat(uid, started_tick=0) for uid in self._radios}
 
     def run(self) -> int:
         """Tick until everybody here is over; the exit code."""
-        bus, keys, join_s = self._bus, self._keys, self._options.join_s
+        bus, keys = self._bus, self._keys
         for uid in self._seats:
             bus.subscribe(keys.cue(uid), lambda key, payload: self._mail.put(sender(key), payload))
             bus.declare_alive(keys.alive(uid))
             bus.answer(keys.every_command(uid), partial(self._ask, uid))
         bus.watch(keys.alive(WORLD), self._on_world)
         self._log.info("ready")
-        deadline_s = monotonic() + join_s
+        deadline_s = monotonic() + self._options.join_s
+        code = DONE
         while self._flying():
             self._greet()
-            self._mail.wait(self._flying(), timeout_s=HELLO_EVERY_S)
+            self._mail.wait(self._awaited(), timeout_s=self._patience_s())
             self._answer()
             for uid, wire in self._mail.take().items():
                 self._take(self._seats[uid], wire)
             if not any(seat.met for seat in self._seats.values()):
                 if self._ending.asked:
-                    return self._code(DONE)
+                    break
                 if monotonic() > deadline_s:
                     hint = silence(self._options.credentials)
-                    self._log.error(f"no word from the world of {self._mission.name} for {join_s:g} s{hint}")
+                    self._log.error(
+                        f"no word from the world of {self._mission.name} for {self._options.join_s:g} s{hint}"
+                    )
                     return FAILED
-            elif self._world_gone and self._flying():
-                return self._fly_home()
-        return self._code(DONE)
-
-    def _flying(self) -> list[int]:
-        return [uid for uid, seat in self._seats.items() if not seat.over]
-
-    def _code(self, code: int) -> int:
+            elif self._is_closing or self._is_world_lost():
+                code = self._fly_home()
+            else:
+                code = max(code, self._go_on_alone())
         return STOPPED if self._ending.interrupted else code
 
-    def _seat(self, uid: int, *, started_tick: int) -> _Seat:
+    def _flying(self) -> list[Seat]:
+        return [seat for seat in self._seats.values() if not seat.over]
+
+    def _awaited(self) -> list[int]:
+        """Whose cues come; all are there for who has not been cued yet."""
+        flying = self._flying()
+        return [seat.uid for seat in flying if not seat.away] or [seat.uid for seat in flying]
+
+    def _patience_s(self) -> float:
+        """Until there is something to do without a cue."""
+        due_s = min(seat.contact.due_s(seat.last.tick + 1) for seat in self._flying())
+        return min(HELLO_EVERY_S, max(0.0, due_s - monotonic()))
+
+    def _seat(self, uid: int, *, started_tick: int) -> Seat:
         [side] = agent_sides(
             self._mission,
             [self._radios[uid]],
@@ -156,41 +162,56 @@ class _Daemon:
             transports=self._transports,
             started_tick=started_tick,
         )
-        return _Seat(side, self._bus.publisher(self._keys.done(uid)), side.hello())
+        period_s = None if self._options.lockstep else self._mission.tick_s / self._options.speed
+        return Seat(side, self._bus.publisher(self._keys.done(uid)), self._mission, period_s=period_s)
 
     def _greet(self) -> None:
-        for seat in self._seats.values():
-            if not (seat.met or seat.over):
-                seat.put(encode(structs.replace(seat.side.hello(), fingerprint=fingerprint(self._mission))))
+        now_s = monotonic()
+        if self._gone_at_s is None and now_s - self._greeted_at_s >= HELLO_EVERY_S:
+            self._greeted_at_s = now_s
+            for seat in self._seats.values():
+                seat.greet(fingerprint(self._mission))
 
-    def _take(self, seat: _Seat, wire: bytes) -> None:
+    def _take(self, seat: Seat, wire: bytes) -> None:
         """One message from the world."""
         if wire == OVER:
-            seat.over = True
+            self._is_closing = self._is_closing or seat.is_aloft
+            seat.over = not seat.is_aloft
             return
         cue = decode_cue(wire)
         if cue is None:
             return
-        if not seat.met:
-            if cue.tick > 0:  # it comes back to a mission that is under way: its vehicle is switched on now
-                seat = self._seats[seat.side.uid] = self._seat(seat.side.uid, started_tick=cue.tick)
-            seat.met = True
+        if (
+            not seat.met and cue.tick > 0
+        ):  # it comes back to a mission that is under way: its vehicle is switched on now
+            seat = self._seats[seat.uid] = self._seat(seat.uid, started_tick=cue.tick)
         self._await_frames(seat.side.computer, cue)
-        self._tick(seat, cue)
+        self._obey(seat)
+        self._say(seat, seat.take(cue))
 
-    def _tick(self, seat: _Seat, cue: Cue) -> None:
-        began_s, time_s = monotonic(), cue.tick * self._mission.tick_s
-        self._log.time_s = time_s
+    def _go_on_alone(self) -> int:
+        """Whoever hears nothing of the world does what is due; the exit code of those who are over by that."""
+        code, now_s = DONE, monotonic()
+        for seat in self._flying():
+            if not seat.met:
+                continue
+            for _ in range(MOST_AT_ONCE):
+                before = seat.last
+                self._obey(seat)
+                self._say(seat, seat.go_on_alone(now_s))
+                if seat.last is before:
+                    break
+            if seat.is_given_up and seat.has_ended:
+                seat.over, code = True, FAILED
+        return code
+
+    def _obey(self, seat: Seat) -> None:
         if self._ending.asked:
-            seat.orders.take(Verb.STOP, seat.last.status.activity)
-        done = seat.side.tick(seat.orders.amend(cue))
-        seat.watch.see(done, time_s=time_s, late_s=cue.late_s, busy_s=monotonic() - began_s)
-        if seat.orders.leave and done.status.activity is Activity.LANDED:
-            done = structs.replace(done, leaves=True)
-            seat.over = True
-        seat.last = done
-        seat.put(encode(done))
-        self._log.events(done.status.events, who=agents_name([seat.side.uid]))
+            seat.orders.take(Verb.STOP, seat.activity)
+
+    def _say(self, seat: Seat, events: Iterable[Event]) -> None:
+        self._log.time_s = seat.last.tick * self._mission.tick_s
+        self._log.events(events, who=agents_name([seat.uid]))
 
     def _ask(self, uid: int, question: Question) -> None:
         with suppress(queue.Full):  # whoever asks so often gets no answer, and asks again
@@ -201,7 +222,7 @@ class _Daemon:
         while not self._questions.empty():
             uid, question = self._questions.get_nowait()
             seat = self._seats[uid]
-            obeyed, text = seat.orders.take(verb_of(question.key), seat.last.status.activity)
+            obeyed, text = seat.orders.take(verb_of(question.key), seat.activity)
             report = seat.watch.report(seat.last, time_s=self._log.time_s)
             question.answer(encode_answer(Answer(obeyed=obeyed, text=text, report=report)))
 
@@ -211,27 +232,45 @@ class _Daemon:
             sleep(FRAME_LOOK_S)
 
     def _on_world(self, key: str, is_there: bool) -> None:
-        self._world_gone = not is_there
-        if not is_there:
-            for uid in self._seats:
-                self._mail.give_up(uid)
+        self._gone_at_s = None if is_there else monotonic()
+        self._greeted_at_s = -inf
+        for uid in self._seats:
+            self._mail.give_up(uid)
+
+    def _is_world_lost(self) -> bool:
+        """Whether the world's process has gone, and it is too late to wait for it.
+
+        On this computer it can only have ended. Elsewhere it may be the link: where the agents' own clock goes on, they
+        know themselves how long to wait; in lockstep time stands still meanwhile.
+        """
+        gone_at_s = self._gone_at_s
+        if gone_at_s is None:
+            return False
+        for seat in self._flying():
+            seat.away = seat.away or self._options.lockstep
+        gone_s = monotonic() - gone_at_s
+        if is_local(self._options.endpoint):
+            return gone_s > ENDED_S
+        return self._options.lockstep and gone_s > self._mission.agents.alone_s
 
     def _fly_home(self) -> int:
-        """The world has gone, and with it the clock: who is still up comes down by itself."""
-        for seat in self._seats.values():
-            seat.over = seat.over or seat.last.status.activity is Activity.LANDED
+        """The world has ended, and with it the clock: who is still up comes down by itself."""
+        for seat in self._flying():
+            seat.over = seat.activity is Activity.LANDED
         if not self._flying():
-            return self._code(DONE)
+            return DONE
         self._log.error("the world has gone: flying home")
         tick_s = self._mission.tick_s
         pace: Pace = RealTime(tick_s=tick_s, speed=1.0) if self._transports else Lockstep()
         first = max(seat.last.tick for seat in self._seats.values()) + 1
         for tick in range(first, first + round(RETURN_LIMIT_S / tick_s)):
             pace.begin(tick)
-            for uid in self._flying():
-                seat = self._seats[uid]
-                self._tick(seat, Cue(tick=tick, come_home=True, frames=None))
-                seat.over = seat.over or seat.last.status.activity is Activity.LANDED or seat.last.unheard
+            for seat in self._flying():
+                self._obey(seat)
+                self._say(seat, seat.do(Cue(tick=tick, come_home=True, frames=None, silent=True)).status.events)
+                seat.over = seat.over or seat.has_ended
             if not self._flying():
                 break
-        return self._code(FAILED)
+        for seat in self._flying():
+            seat.over = True
+        return FAILED

@@ -80,6 +80,7 @@ class RemoteCrew:
         self._dead: set[int] = set()  # seen to die, from another thread
         self._news: dict[int, Event] = {}
         self._strangers: set[int] = set()
+        self._tick = HELLO_TICK  # under way
         bus.subscribe(keys.every_done, lambda key, payload: self._mail.put(sender(key), payload))
         bus.watch(keys.every_alive, self._on_change)
 
@@ -111,6 +112,7 @@ class RemoteCrew:
         """
         self._collect()
         tick, waiting = cues[0].tick, {uid for uid in self._dones if uid not in self._missing}
+        self._tick = tick
         for uid in waiting:
             unchecked = uid in self._new or not self._patience.lockstep
             self._puts[uid](encode(structs.replace(cues[uid], frames=None) if unchecked else cues[uid]))
@@ -143,7 +145,7 @@ class RemoteCrew:
         while self._dead:
             uid = self._dead.pop()
             if uid not in self._missing:
-                self._lose(uid, "its process has died")
+                self._lose(uid, "its process has died, or its link is cut")
 
     def _hear(self, uid: int, done: Done) -> None:
         if done.tick == HELLO_TICK and done.fingerprint != self._fingerprint:
@@ -152,6 +154,8 @@ class RemoteCrew:
                 why = "flies another mission, and is not let in: are its file and options the same?"
                 self._tell(uid, Event(Level.ERROR, why))
             return
+        if done.tick > self._tick:
+            return  # of a tick that has not begun
         if uid in self._missing:
             if uid in self._dones:
                 done = structs.replace(done, spoke=False)
@@ -159,7 +163,9 @@ class RemoteCrew:
             self._missing.discard(uid)
             self._new.add(uid)
         elif done.tick == HELLO_TICK:
-            return  # said again before our first cue came
+            return  # said again before our cue came
+        elif done.tick < self._dones[uid].tick:
+            return  # late: we know better by now
         self._dones[uid] = done
         self._heard_at_s[uid] = monotonic()
         if done.leaves:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from hashlib import sha256
+from math import inf, isinf
 
 from comms.credentials import Credentials
 from comms.status import Level
@@ -20,17 +21,22 @@ class DaemonOptions:
 
     Attributes:
         endpoint: where the world listens, as zenoh writes it. join_s: how long to wait for each other at the start.
-        lockstep: whether nothing may be dropped, because everybody waits for everybody.
+        speed: mission seconds per second of wall time; `inf` is as fast as it goes.
         log_level: the least that is said. leash: end when standard input does.
         credentials: what proves who it is; None: anybody may come in.
     """
 
     endpoint: str = ENDPOINT
     join_s: float = JOIN_S
-    lockstep: bool = True
+    speed: float = inf
     log_level: Level = Level.INFO
     leash: bool = False
     credentials: Credentials | None = None
+
+    @property
+    def lockstep(self) -> bool:
+        """Whether nothing may be dropped, because everybody waits for everybody."""
+        return isinf(self.speed)
 
 
 def fingerprint(mission: Mission) -> str:

@@ -32,7 +32,7 @@ def world(mission: Mission, options: argparse.Namespace) -> int:
     daemon = _daemon(options, speed, WORLD)
     if daemon.credentials is not None:
         check_all_known(daemon.credentials, mission)
-    settings = WorldOptions(speed=speed, report=options.report, recorded=options.recorded)
+    settings = WorldOptions(report=options.report, recorded=options.recorded)
     return run(mission, daemon, settings)
 
 
@@ -196,7 +196,7 @@ def _daemon(options: argparse.Namespace, speed: float, name: str) -> DaemonOptio
     return DaemonOptions(
         endpoint=endpoint_of(options.endpoint, keys=options.keys),
         join_s=options.join_timeout,
-        lockstep=isinf(speed),
+        speed=speed,
         log_level=Level(options.log_level),
         leash=options.leash,
         credentials=credentials_of(options.keys, name),

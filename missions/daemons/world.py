@@ -7,7 +7,6 @@ import time
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
-from math import inf
 
 from rich.console import Console
 
@@ -43,11 +42,9 @@ class WorldOptions:
     """Options of `swarm world` beside every daemon's.
 
     Attributes:
-        speed: mission seconds per second of wall time; `inf` is as fast as it goes. report: where the report goes.
-        recorded: wait for a recorder before it begins.
+        report: where the report goes. recorded: wait for a recorder before it begins.
     """
 
-    speed: float = inf
     report: str | None = None
     recorded: bool = False
 
@@ -102,7 +99,7 @@ def _run(
         keys=keys,
         n_agents=mission.agents.count,
         medium=side.medium,
-        patience=_patience(mission, daemon, options),
+        patience=_patience(mission, daemon),
         fingerprint=fingerprint(mission),
         tell=lambda uid, event: log.events([event], who=f"agent-{uid}"),
         stop=desk.is_closing,
@@ -119,7 +116,7 @@ def _run(
         began_s = time.monotonic()
         with _progress(mission, console, metrics) as progress:
             observers.append(progress)
-            fly(side, crew, pace=pace_of(mission, options.speed), observers=observers, stop=desk.is_closing)
+            fly(side, crew, pace=pace_of(mission, daemon.speed), observers=observers, stop=desk.is_closing)
     finally:
         crew.dismiss()
         feed.close()
@@ -142,10 +139,10 @@ def _explain(side: WorldSide) -> None:
     side.explain_every_s = explain_every_s(side.mission)
 
 
-def _patience(mission: Mission, daemon: DaemonOptions, options: WorldOptions) -> Patience:
+def _patience(mission: Mission, daemon: DaemonOptions) -> Patience:
     if daemon.lockstep:
         return Patience(join_s=daemon.join_s, tick_s=LOST_S, lost_s=LOST_S, lockstep=True)
-    tick_s = TICK_SHARE * mission.tick_s / options.speed
+    tick_s = TICK_SHARE * mission.tick_s / daemon.speed
     return Patience(join_s=daemon.join_s, tick_s=tick_s, lost_s=LOST_IN_REAL_TIME_S, lockstep=False)
 
 

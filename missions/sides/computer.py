@@ -43,7 +43,7 @@ class Computer:
         )
         telemetry, self._telemetry, self._backlog = self._telemetry, b"", 0
         output = self.agent.tick(now_s, order, cue.sightings, self.radio.drain(now_s), telemetry)
-        if output.frame is not None:
+        if output.frame is not None and not cue.silent:
             self.radio.send(output.frame)
         return output
 

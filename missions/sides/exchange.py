@@ -26,6 +26,7 @@ class Cue(msgspec.Struct, frozen=True, kw_only=True, array_like=True):
         sightings: what the agent's sensor sees now.
         frames: how many have been sent to its radio for this tick; None where nobody waits for them (real time).
         late_s: how late the tick began, on the wall clock.
+        silent: whatever the agent would say by radio is not sent.
     """
 
     tick: int
@@ -38,6 +39,7 @@ class Cue(msgspec.Struct, frozen=True, kw_only=True, array_like=True):
     sightings: tuple[Sighting, ...] = ()
     frames: int | None = 0
     late_s: float = 0.0
+    silent: bool = False
 
 
 class LinkCount(msgspec.Struct, frozen=True, array_like=True):

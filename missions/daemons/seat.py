@@ -1,0 +1,140 @@
+"""One agent of a daemon: its side, how far it is, and what stands between the world's cues and it."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterable, Sequence
+from time import monotonic
+
+from msgspec import structs
+
+from comms.session import Put
+from comms.status import Activity, Event, Level
+from missions.daemons.contact import Contact
+from missions.daemons.orders import Orders, Watch
+from missions.daemons.wire import encode
+from missions.mission import Mission
+from missions.sides.agent import AgentSide
+from missions.sides.exchange import Cue, Done
+
+MAX_NEWS = 50  # of a time alone; the oldest go
+
+
+class Seat:
+    """What a daemon keeps for agent `uid`.
+
+    Args:
+        put: where its dones go. period_s: wall seconds a tick; None: in lockstep.
+
+    Attributes:
+        last: its last done. orders: what people told it. watch: what they are shown. contact: to the world.
+        met: the world has cued it. away: and does not any more. over: it has ended.
+    """
+
+    def __init__(self, side: AgentSide, put: Put, mission: Mission, *, period_s: float | None) -> None:
+        self.side = side
+        self.last = side.hello()
+        self.orders = Orders()
+        self.watch = Watch()
+        self.contact = Contact(period_s=period_s)
+        self.met = False
+        self.away = False
+        self.over = False
+        self._put = put
+        self._mission = mission
+        self._news: deque[Event] = deque(maxlen=MAX_NEWS)  # for its next done
+
+    @property
+    def uid(self) -> int:
+        """Its number."""
+        return self.side.uid
+
+    @property
+    def activity(self) -> Activity:
+        """What it does."""
+        return self.last.status.activity
+
+    @property
+    def is_aloft(self) -> bool:
+        """Whether it flies, and is to bring its vehicle down."""
+        return not self.last.on_ground and self.activity not in (Activity.LOST, Activity.TAKEN_OVER)
+
+    @property
+    def has_ended(self) -> bool:
+        """Whether there is nothing that it can still do for its vehicle."""
+        return self.activity is Activity.LANDED or self.last.unheard
+
+    def greet(self, fingerprint: str) -> None:
+        """Say hello, if the world does not cue it."""
+        if (self.away or not self.met) and not self.over:
+            self._put(encode(structs.replace(self.side.hello(), fingerprint=fingerprint)))
+
+    def take(self, cue: Cue) -> Sequence[Event]:
+        """Do the tick of a cue from the world, and tell it; what happened without it, too. Returns what it was told.
+
+        Raises:
+            RuntimeError: the inbox is not what was sent to it.
+        """
+        now_s = monotonic()
+        if self.contact.is_stale(cue, now_s):
+            return ()
+        for missed in self.contact.missed(self.last.tick + 1, cue):
+            self._remember(self.do(missed).status.events)
+        if self.away:
+            self._remember([Event(Level.WARNING, f"the world is back, after {self.alone_s:.1f} s without")])
+        self.contact.hear(cue, now_s)
+        self.met, self.away = True, False
+        if cue.tick > self.last.tick:
+            return self._tell(self.do(cue))
+        # It has lived through this tick alone.
+        status = structs.replace(self.last.status, events=(), knowledge=None)
+        return self._tell(structs.replace(self.last, tick=cue.tick, status=status, spoke=False))
+
+    def go_on_alone(self, now_s: float) -> Sequence[Event]:
+        """Do the next tick without a cue, if the world is silent and the tick is due. Returns what is new."""
+        cue = self.contact.alone(self.last.tick + 1, now_s)
+        if cue is None:
+            return ()
+        news: list[Event] = []
+        if not self.away:
+            self.away = True
+            limit_s = self._mission.agents.alone_s
+            news.append(Event(Level.WARNING, f"no word from the world: holds still, for {limit_s:g} s at most"))
+        if self.is_given_up and not self.orders.come_home:
+            self.orders.come_home = True
+            news.append(Event(Level.ERROR, "no word from the world: flying home"))
+        news += self.do(cue).status.events
+        self._remember(news)
+        return news
+
+    @property
+    def alone_s(self) -> float:
+        """How long it has done without the world, on the mission clock."""
+        last = self.contact.last
+        return 0.0 if last is None else (self.last.tick - last.tick) * self._mission.tick_s
+
+    @property
+    def is_given_up(self) -> bool:
+        """Whether that is so long that it is to be home."""
+        return self.alone_s >= self._mission.agents.alone_s
+
+    def do(self, cue: Cue) -> Done:
+        """One tick of its side, under the orders of people."""
+        began_s = monotonic()
+        done = self.side.tick(self.orders.amend(cue))
+        self.watch.see(done, time_s=cue.tick * self._mission.tick_s, late_s=cue.late_s, busy_s=monotonic() - began_s)
+        if self.orders.leave and done.status.activity is Activity.LANDED:
+            done = structs.replace(done, leaves=True)
+            self.over = True
+        self.last = done
+        return done
+
+    def _remember(self, events: Iterable[Event]) -> None:
+        """For the world, when it is back."""
+        self._news.extend(events)
+
+    def _tell(self, done: Done) -> tuple[Event, ...]:
+        events = (*self._news, *done.status.events)
+        self._news.clear()
+        self._put(encode(structs.replace(done, status=structs.replace(done.status, events=events))))
+        return events
