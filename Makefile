@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 PEERS := .venv-peers
 CLIENTS := .venv-clients
 
-.PHONY: run test test-slow test-clients fuzz check format bench bench-processes bench-vehicles bench-recording pictures \
+.PHONY: run test test-slow test-network test-clients fuzz check format bench bench-processes bench-vehicles bench-recording pictures \
 	bench-peers clean
 
 run: $(VENV)/ground.done
@@ -18,6 +18,10 @@ test: check
 
 test-slow: $(VENV)/all.done
 	$(BIN)/python -m pytest -n 2 --dist loadgroup tests
+
+# Two computers in network namespaces, and a cable between them that is cut: five minutes.
+test-network: $(VENV)/all.done
+	$(BIN)/python -m pytest -rs tests/missions/daemons/test_machines.py
 
 # MAVSDK, MAVProxy and mavutil fly simulated vehicles: some minutes. CLIENT="--only mavsdk" for some of them.
 test-clients: $(VENV)/all.done $(CLIENTS)/clients.done

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from time import monotonic
 
 from msgspec import structs
@@ -17,7 +17,7 @@ from missions.mission import Mission
 from missions.sides.agent import AgentSide
 from missions.sides.exchange import Cue, Done
 
-MAX_NEWS = 50  # of a time alone; the oldest go
+MAX_UNTOLD = 50  # events of a time alone; the oldest go
 
 
 class Seat:
@@ -42,7 +42,7 @@ class Seat:
         self.over = False
         self._put = put
         self._mission = mission
-        self._news: deque[Event] = deque(maxlen=MAX_NEWS)  # for its next done
+        self._untold: deque[Event] = deque(maxlen=MAX_UNTOLD)
 
     @property
     def uid(self) -> int:
@@ -70,7 +70,7 @@ class Seat:
             self._put(encode(structs.replace(self.side.hello(), fingerprint=fingerprint)))
 
     def take(self, cue: Cue) -> Sequence[Event]:
-        """Do the tick of a cue from the world, and tell it; what happened without it, too. Returns what it was told.
+        """Do the tick of a cue from the world, and tell it; what happened without it, too. Returns what is new.
 
         Raises:
             RuntimeError: the inbox is not what was sent to it.
@@ -78,17 +78,22 @@ class Seat:
         now_s = monotonic()
         if self.contact.is_stale(cue, now_s):
             return ()
+        news: list[Event] = []
         for missed in self.contact.missed(self.last.tick + 1, cue):
-            self._remember(self.do(missed).status.events)
+            news += self.do(missed).status.events
         if self.away:
-            self._remember([Event(Level.WARNING, f"the world is back, after {self.alone_s:.1f} s without")])
+            news.append(Event(Level.WARNING, f"the world is back, after {self.alone_s:.1f} s without"))
         self.contact.hear(cue, now_s)
         self.met, self.away = True, False
         if cue.tick > self.last.tick:
-            return self._tell(self.do(cue))
-        # It has lived through this tick alone.
-        status = structs.replace(self.last.status, events=(), knowledge=None)
-        return self._tell(structs.replace(self.last, tick=cue.tick, status=status, spoke=False))
+            news += self.do(cue).status.events
+            told = self.last
+        else:  # it has lived through this tick alone
+            told = structs.replace(self.last, tick=cue.tick, spoke=False)
+        events = (*self._untold, *news)
+        self._untold.clear()
+        self._put(encode(structs.replace(told, status=structs.replace(told.status, events=events))))
+        return news
 
     def go_on_alone(self, now_s: float) -> Sequence[Event]:
         """Do the next tick without a cue, if the world is silent and the tick is due. Returns what is new."""
@@ -104,7 +109,7 @@ class Seat:
             self.orders.come_home = True
             news.append(Event(Level.ERROR, "no word from the world: flying home"))
         news += self.do(cue).status.events
-        self._remember(news)
+        self._untold.extend(news)
         return news
 
     @property
@@ -128,13 +133,3 @@ class Seat:
             self.over = True
         self.last = done
         return done
-
-    def _remember(self, events: Iterable[Event]) -> None:
-        """For the world, when it is back."""
-        self._news.extend(events)
-
-    def _tell(self, done: Done) -> tuple[Event, ...]:
-        events = (*self._news, *done.status.events)
-        self._news.clear()
-        self._put(encode(structs.replace(done, status=structs.replace(done.status, events=events))))
-        return events

@@ -22,11 +22,11 @@ SMALL = ("--set", "agents.count=3", "--set", "targets.count=4", "--set", "vehicl
 
 
 class Swarm:
-    """One command that runs, and what it says on standard error."""
+    """One command that runs, `within` another that gives it its place, and what it says on standard error."""
 
-    def __init__(self, *words: str) -> None:
+    def __init__(self, *words: str, within: tuple[str, ...] = ()) -> None:
         self.process = subprocess.Popen(
-            (*COMMAND, *words), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, cwd=ROOT
+            (*within, *COMMAND, *words), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, cwd=ROOT
         )
         self.said: list[str] = []
         self._lines: queue.Queue[str | None] = queue.Queue()
@@ -63,9 +63,9 @@ class Swarm:
 
 
 @contextmanager
-def swarm(*words: str) -> Iterator[Swarm]:
+def swarm(*words: str, within: tuple[str, ...] = ()) -> Iterator[Swarm]:
     """A command and its children, none of which outlives the block."""
-    running = Swarm(*words)
+    running = Swarm(*words, within=within)
     try:
         yield running
     finally:
