@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 
-from comms.status import AgentStatus
+from comms.status import AgentStatus, HelpCallStatus
 from missions.metrics import CALL_PAUSE_S
 from missions.observation import Observation
 
@@ -16,7 +16,7 @@ class Fate(StrEnum):
 
     HANDED_OVER = "handed over to"  # a helper has it
     TAKEN = "taken by passer-by"  # somebody has it who had not set out to help
-    KEPT = "kept"  # the caller follows it still
+    KEPT = "kept"  # the caller follows it still, or again
     LOST = "lost"  # nobody has it
     OPEN = "out until the end"  # the mission ended first
 
@@ -64,27 +64,28 @@ class _Watch:
         self._open: dict[tuple[int, int], Call] = {}
 
     def observe(self, seen: Observation) -> None:
-        """Renew, begin and end calls."""
-        for status in seen.statuses:
-            for call in status.calls:
-                key = (status.uid, call.target)
-                known = self._open.get(key)
-                if known is None or seen.time_s - known.ended_s > CALL_PAUSE_S:
-                    known = Call(status.uid, call.target, seen.time_s, seen.time_s, call.urgent, call.loss_in_s)
-                    self._open[key] = known
-                    self.calls.append(known)
-                known.ended_s = seen.time_s
-                known.urgent |= call.urgent
-        self._follow(seen)
-
-    def _follow(self, seen: Observation) -> None:
+        """End calls, renew them, begin them, and note who sets out."""
         for key, call in list(self._open.items()):
-            for status in seen.statuses:
-                if status.helping == call.target and status.uid not in call.helpers:
-                    call.helpers.append(status.uid)
             if seen.time_s - call.ended_s > CALL_PAUSE_S:
                 call.fate, call.owner = _fate(call, seen.statuses)
                 del self._open[key]
+        for status in seen.statuses:
+            for told in status.calls:
+                call = self._of(status.uid, told, seen.time_s)
+                call.ended_s = seen.time_s
+                call.urgent |= told.urgent
+        for (caller, target), call in self._open.items():
+            for status in seen.statuses:
+                # Whoever lost a target goes after it, too; that is no help.
+                if status.helping == target and status.uid not in (caller, *call.helpers):
+                    call.helpers.append(status.uid)
+
+    def _of(self, caller: int, told: HelpCallStatus, time_s: float) -> Call:
+        key = caller, told.target
+        if key not in self._open:
+            self._open[key] = Call(caller, told.target, time_s, time_s, told.urgent, told.loss_in_s)
+            self.calls.append(self._open[key])
+        return self._open[key]
 
 
 def _fate(call: Call, statuses: Sequence[AgentStatus]) -> tuple[Fate, int | None]:

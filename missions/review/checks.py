@@ -18,6 +18,8 @@ from dataclasses import dataclass
 from missions.problems import InputError, any_of, did_you_mean, shown
 from missions.report import Report
 
+_OF_THE_FLIGHT = frozenset({"timing.wall_s", "timing.realtime_factor"})
+
 Numbers = Mapping[str, float | None]
 
 _OPERATORS: dict[str, Callable[[float, float], bool]] = {
@@ -63,6 +65,11 @@ def numbers_of(report: Report) -> dict[str, float | None]:
     return found
 
 
+def countable(report: Report) -> dict[str, float | None]:
+    """The numbers that a recording tells: how long a flight took on the wall clock is not among them."""
+    return {name: number for name, number in numbers_of(report).items() if name not in _OF_THE_FLIGHT}
+
+
 def judge(condition: str, numbers: Numbers) -> Verdict:
     """Whether the condition holds.
 
@@ -103,10 +110,8 @@ def _words(condition: str) -> list[str]:
 
 
 def _value(word: str, numbers: Numbers, found: dict[str, float | None]) -> float | None:
-    try:
+    if not (word[0].isalpha() or word[0] == "_"):  # a name, though it be nan or inf
         return float(word)
-    except ValueError:
-        pass
     if word not in numbers:
         raise _bad(word, f"{any_of(numbers)}{did_you_mean(word, numbers)}")
     found[word] = numbers[word]

@@ -9,7 +9,7 @@ from rich.console import Console
 
 from missions.problems import InputError
 from missions.report import as_json
-from missions.review.checks import judge, numbers_of
+from missions.review.checks import countable, judge
 from missions.review.comparison import print_comparison
 from missions.review.figures.output import write_picture
 from missions.review.figures.over_time import over_time
@@ -23,6 +23,7 @@ from missions.review.summary import print_summary
 
 DONE, FAILED = 0, 1
 _WIDE = 160
+_PAGES = (".html", ".htm")
 
 
 def review(options: ReviewOptions) -> int:
@@ -32,16 +33,20 @@ def review(options: ReviewOptions) -> int:
         InputError: a recording cannot be read, a question makes no sense, or a file cannot be written.
     """
     # Where nobody looks lines are not folded: they are for other programs.
-    console = Console(highlight=False, emoji=False, markup=False, width=None if sys.stdout.isatty() else _WIDE)
+    # Beside JSON for another program, words go where people look.
+    looked_at = sys.stderr if options.json else sys.stdout
+    width = None if looked_at.isatty() else _WIDE
+    console = Console(highlight=False, emoji=False, markup=False, width=width, stderr=options.json)
     reviews = [read(path) for path in options.recordings]
-    verdicts = [judge(text, numbers_of(one.report)) for one in reviews for text in options.checks]
+    verdicts = [(one, judge(text, countable(one.report))) for one in reviews for text in options.checks]
     if len(reviews) > 1:
         _compare(reviews[0], reviews[1], options, console)
     else:
         _tell(reviews[0], options, console)
-    for verdict in verdicts:
-        console.print(str(verdict), style="" if verdict.holds else "bold red", markup=False)
-    return DONE if all(verdict.holds for verdict in verdicts) else FAILED
+    for one, verdict in verdicts:
+        whose = f"{one.playback.path.name}: " if len(reviews) > 1 else ""
+        console.print(f"{whose}{verdict}", style="" if verdict.holds else "bold red", markup=False)
+    return DONE if all(verdict.holds for _, verdict in verdicts) else FAILED
 
 
 def _compare(first: Review, second: Review, options: ReviewOptions, console: Console) -> None:
@@ -71,6 +76,8 @@ def _tell(one: Review, options: ReviewOptions, console: Console) -> None:
 
 
 def _write(path: Path, text: str) -> None:
+    if path.suffix.lower() not in _PAGES:
+        raise InputError(f"--report: got {path}; allowed: a file that ends with {' or '.join(_PAGES)}")
     try:
         path.write_text(text, encoding="utf-8")
     except OSError as error:

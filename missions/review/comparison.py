@@ -66,11 +66,29 @@ def number_differences(first: Review, second: Review) -> list[Difference]:
 
 def parting_s(first: Review, second: Review) -> float | None:
     """Mission clock of the first tick in which an agent does, follows or helps otherwise; None: never."""
-    for seen, other in zip(first.playback.observations, second.playback.observations, strict=False):
-        if _deeds(seen) != _deeds(other):
-            return seen.time_s
-    shorter, longer = sorted((first.playback.observations, second.playback.observations), key=len)
-    return None if len(shorter) == len(longer) else longer[len(shorter)].time_s
+    return next((seen.time_s for seen, other in _pairs(first, second) if _deeds(seen) != _deeds(other)), None)
+
+
+def _pairs(first: Review, second: Review) -> Iterator[tuple[Observation, Observation]]:
+    """The ticks that both have, by the mission clock."""
+    by_time = {round(seen.time_s, 6): seen for seen in second.playback.observations}
+    for seen in first.playback.observations:
+        other = by_time.get(round(seen.time_s, 6))
+        if other is not None:
+            yield seen, other
+
+
+def _opening(first: Review, second: Review) -> str:
+    """How much alike they are, in a sentence."""
+    parted_s = parting_s(first, second)
+    if parted_s is not None:
+        return f"The two missions part at {clock(parted_s)}."
+    lengths = {len(review.playback.observations) for review in (first, second)}
+    if len(lengths) > 1:
+        return "The two missions are the same as far as both are recorded."
+    if all(seen.targets == other.targets and _places(seen) == _places(other) for seen, other in _pairs(first, second)):
+        return "The two missions are the same, tick by tick."
+    return "Everybody does the same in both missions, at other places."
 
 
 def print_comparison(first: Review, second: Review, console: Console) -> None:
@@ -83,13 +101,9 @@ _MISSING = object()
 
 def _parts(first: Review, second: Review) -> Iterator[RenderableType]:
     names = first.playback.path.name, second.playback.path.name
-    parted_s = parting_s(first, second)
     settings = setting_differences(first.settings, second.settings)
     numbers = number_differences(first, second)
-    if parted_s is None:
-        yield Text("The two missions are the same, tick by tick.", "bold")
-    else:
-        yield Text(f"The two missions part at {clock(parted_s)}.", "bold")
+    yield Text(_opening(first, second), "bold")
     if settings:
         yield Text()
         yield _table("Settings that differ", names, settings)
@@ -148,3 +162,7 @@ def _said(settings: Mapping[str, Any], key: str) -> str:
 
 def _deeds(seen: Observation) -> list[tuple[Any, ...]]:
     return [(status.activity, status.tags, status.helping) for status in seen.statuses]
+
+
+def _places(seen: Observation) -> list[tuple[float, float, float]]:
+    return [truth.position_m for truth in seen.truths]

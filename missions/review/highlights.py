@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
+from math import inf
 from typing import NamedTuple
 
 from missions.review.calls import Fate
 from missions.review.losses import Loss
 from missions.review.reading import Review
+from missions.review.timeline import why_it_did_not
 from missions.review.words import agent, agents, clock, percent, target
 
 _MOST_FAULTS, _MOST_LOSSES = 3, 4
 # What coverage varies by without any fault, and how long a target is out of hands when it only passes between them.
-_COST, _LONG_S = 0.05, 10.0
+_COST, LONG_S = 0.05, 10.0
 _WHEN = {"before": "of the targets were seen before", "during": "meanwhile", "after": "afterwards"}
 
 
@@ -46,9 +48,9 @@ def _costly_faults(review: Review) -> Iterator[Highlight]:
 
 
 def _long_losses(review: Review) -> Iterator[Highlight]:
-    """The longest, those with one cause together."""
-    long = [loss for loss in review.losses if loss.found_after_s is None or loss.found_after_s > _LONG_S]
-    long.sort(key=lambda loss: -(loss.found_after_s or float("inf")))
+    """The longest."""
+    long = [loss for loss in review.losses if not loss.left and (loss.found_after_s or inf) > LONG_S]
+    long.sort(key=lambda loss: -(loss.found_after_s or inf))
     for loss in long[:_MOST_LOSSES]:
         lasted = "for good" if loss.found_after_s is None else f"for {loss.found_after_s:.0f} s"
         yield Highlight(loss.time_s, f"{target(loss.target)} is lost {lasted}: {_why(loss)}")
@@ -60,8 +62,7 @@ def _why(loss: Loss) -> str:
         return f"{owners}, which had it, was out" if len(loss.owners) == 1 else f"{owners}, which had it, were out"
     if loss.chances:
         best = loss.chances[0]
-        earshot = "and heard the call" if best.heard else "but was out of earshot"
-        return f"it got away from {owners}; {agent(best.agent)} was free and near enough, {earshot}"
+        return f"it got away from {owners}; {agent(best.agent)} was free and near enough: {why_it_did_not(best)}"
     if loss.helpers:
         return f"it got away from {owners}; {agents(loss.helpers)} came too late"
     return f"it got away from {owners}, and nobody free was near enough"

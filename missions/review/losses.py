@@ -22,13 +22,14 @@ class Chance:
 
     Attributes:
         leave_by_s: the last moment (mission clock) at which it could have left. distance_m: to the target, at the loss.
-        heard: whether it was in radio contact with an owner at that moment.
+        in_touch: whether it was in radio contact with an owner then. called: whether the call was out by then.
     """
 
     agent: int
     leave_by_s: float
     distance_m: float
-    heard: bool
+    in_touch: bool
+    called: bool
 
 
 @dataclass(slots=True)
@@ -37,7 +38,7 @@ class Loss:
 
     Attributes:
         time_s: mission clock of the first tick without an owner. owners: who had it until then.
-        owners_gone: none of them is on duty any more.
+        owners_gone: none of them is on duty any more. left: the target has left the world: nobody could have kept it.
         call: the call that was out for it, if any. helpers: who was on the way.
         chances: who could have prevented it; the one that could have left last comes first.
         found_after_s: until somebody had it again; None: never.
@@ -47,6 +48,7 @@ class Loss:
     target: int
     owners: tuple[int, ...]
     owners_gone: bool
+    left: bool
     call: Call | None
     helpers: tuple[int, ...]
     chances: tuple[Chance, ...]
@@ -73,21 +75,24 @@ def losses_of(
             loss = at_large.pop(target)
             loss.found_after_s = seen.time_s - loss.time_s
         for target in sorted(before.keys() - owners.keys()):
-            chances = _chances(lately, target, before[target], speed_m_s=speed_m_s, sensing_range_m=sensing_range_m)
             call = _call_out(calls, target, before[target], seen.time_s)
+            chances = _chances(
+                lately, target, before[target], call, speed_m_s=speed_m_s, sensing_range_m=sensing_range_m
+            )
             helpers = tuple(
                 status.uid for status in seen.statuses if status.helping == target and status.uid not in before[target]
             )
             gone = all(seen.statuses[uid].activity in OFF_DUTY for uid in before[target])
-            at_large[target] = Loss(seen.time_s, target, before[target], gone, call, helpers, chances)
+            left = not seen.targets[target].present
+            at_large[target] = Loss(seen.time_s, target, before[target], gone, left, call, helpers, chances)
             losses.append(at_large[target])
         before = owners
     return losses
 
 
 def longest(losses: Sequence[Loss], count: int) -> list[Loss]:
-    """The `count` losses that lasted longest, in order of time."""
-    found = sorted(losses, key=lambda loss: -(loss.found_after_s or inf))[:count]
+    """The `count` losses that lasted longest, in order of time; those of targets that left come after all others."""
+    found = sorted(losses, key=lambda loss: (loss.left, -(loss.found_after_s or inf)))[:count]
     return sorted(found, key=lambda loss: loss.time_s)
 
 
@@ -111,6 +116,7 @@ def _chances(
     lately: Sequence[Observation],
     target: int,
     owners: tuple[int, ...],
+    call: Call | None,
     *,
     speed_m_s: float,
     sensing_range_m: float,
@@ -132,6 +138,7 @@ def _chances(
             way_m = hypot(x - place.x_m, y - place.y_m) - sensing_range_m
             if way_m <= speed_m_s * (lost.time_s - seen.time_s):
                 x, y, _ = lost.truths[uid].position_m
-                heard = any({uid, owner} == {*link} for link in seen.links for owner in owners)
-                found[uid] = Chance(uid, seen.time_s, hypot(x - place.x_m, y - place.y_m), heard)
+                in_touch = any({uid, owner} == {*link} for link in seen.links for owner in owners)
+                called = call is not None and call.began_s <= seen.time_s
+                found[uid] = Chance(uid, seen.time_s, hypot(x - place.x_m, y - place.y_m), in_touch, called)
     return tuple(sorted(found.values(), key=lambda chance: -chance.leave_by_s))

@@ -11,6 +11,7 @@ from rich.markdown import Markdown
 from rich.table import Table
 from rich.text import Text
 
+from comms.status import OFF_DUTY, Activity
 from missions.colors import ACTIVITY_INKS, hex_color
 from missions.observation import Observation
 from missions.problems import InputError
@@ -51,6 +52,7 @@ def _title(seen: Observation, uid: int) -> Text:
 
 def _facts(review: Review, seen: Observation, uid: int) -> Table:
     status, truth = seen.statuses[uid], seen.truths[uid]
+    on_duty = status.activity not in OFF_DUTY
     table = Table.grid(padding=(0, 2))
     table.add_column(style="dim")
     table.add_column()
@@ -67,7 +69,7 @@ def _facts(review: Review, seen: Observation, uid: int) -> Table:
         for number, other in enumerate(seen.targets)
         if other.present and number not in status.tags and _distance_m(seen, uid, number) <= review.sensing_range_m
     ]
-    if in_sight:
+    if in_sight and on_duty:
         table.add_row("also in range", ", ".join(_away(seen, uid, number) for number in in_sight))
     for call in status.calls:
         what = f"help for {target(call.target)}, to be lost in {call.loss_in_s:.1f} s when it began"
@@ -78,7 +80,8 @@ def _facts(review: Review, seen: Observation, uid: int) -> Table:
             "helps with", f"{_away(seen, uid, status.helping)}" + (f", called by {agents(callers)}" if callers else "")
         )
     mates = [a if b == uid else b for a, b in seen.links if uid in (a, b)]
-    table.add_row("in touch with", agents(mates) or "nobody")
+    if on_duty:
+        table.add_row("in touch with", agents(mates) or "nobody")
     return table
 
 
@@ -97,7 +100,9 @@ def _page(review: Review, seen: Observation, uid: int) -> Iterator[RenderableTyp
     count = bisect_right(pages, seen.tick, key=lambda page: page[0])
     if count:
         tick, text = pages[count - 1]
-        yield Text(f"\nWhat it knew and wanted, told at {clock(tick * review.playback.facts.tick_s)}", "bold")
+        told = clock(tick * review.playback.facts.tick_s)
+        lost = seen.statuses[uid].activity is Activity.LOST
+        yield Text(f"\n{'What it last knew' if lost else 'What it knew'} and wanted, told at {told}", "bold")
         yield from _told(text.partition("\n")[2])  # its title says what ours says
 
 

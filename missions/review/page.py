@@ -8,6 +8,7 @@ from importlib.resources import files
 from string import Template
 
 from missions.colors import ACTIVITY_COLORS, LEVEL_INKS, hex_color
+from missions.review.calls import Fate
 from missions.review.figures.from_above import from_above
 from missions.review.figures.output import part_of_page
 from missions.review.figures.over_time import over_time
@@ -15,14 +16,14 @@ from missions.review.highlights import highlights, told
 from missions.review.losses import Loss, longest
 from missions.review.reading import Review
 from missions.review.summary import injected_rows
-from missions.review.timeline import Line, call_words, loss_words
+from missions.review.timeline import Line, call_words, found_words, loss_words
 from missions.review.words import agent, clock, percent
 
 _ABOUT_TIME = "Over time: faults on purpose, coverage, what each agent does, and how far targets are from agents"
 _ABOUT_PATHS = "From above: the paths of agents and targets, and where targets were lost"
 # Losses that are shown at once; the others are one click away.
 _SHOWN_LOSSES = 12
-_LOSS_HEAD = ("time", "who", "what", "found again")
+_LOSS_HEAD = ("time", "who", "what", "in the end")
 
 
 def page_of(review: Review) -> str:
@@ -84,19 +85,24 @@ def _tiles(review: Review) -> Sequence[tuple[str, str, str]]:
     report = review.report
     events, helped, radio, mavlink = (report[key] for key in ("events", "help", "radio", "mavlink"))
     utilization = report["utilization"]
+    handed_over = sum(call.fate is Fate.HANDED_OVER for call in review.calls)
     reached = radio["delivered"] + radio["out_of_range"] + radio["lost"]
     return (
         ("coverage", percent(report["coverage"]), f"standing still at random: {percent(report['coverage_floor'])}"),
         ("last quarter", percent(report["coverage_late"]), "coverage"),
         ("utilization", "–" if utilization is None else f"{utilization:.2f}", "targets seen per agent"),
         ("losses", str(events["target_loss"]), f"{events['target_discovery']} discovered"),
-        ("help calls", str(helped["calls"]), f"{helped['captured']} captured by helpers"),
+        ("help calls", str(helped["calls"]), f"{handed_over} handed over to helpers"),
         (
             "radio",
             percent(radio["delivered"] / reached if reached else None),
             f"of frames reached a mate, {radio['lost']} lost",
         ),
-        ("MAVLink", str(mavlink["bad"] + mavlink["dropped"]), f"bad or dropped of {mavlink['received']}"),
+        (
+            "MAVLink",
+            str(sum(end[what] for end in (mavlink, mavlink["vehicles"]) for what in ("bad", "dropped"))),
+            f"bad or dropped of {mavlink['received'] + mavlink['vehicles']['received']}",
+        ),
         ("faults", str(len(report["faults"])), "what should not have happened"),
     )
 
@@ -107,8 +113,7 @@ def _tile(tile: tuple[str, str, str]) -> str:
 
 
 def _loss_row(loss: Loss) -> tuple[str, str, str, str]:
-    found = "never" if loss.found_after_s is None else f"after {loss.found_after_s:.1f} s"
-    return clock(loss.time_s), agent(loss.owners[0]), loss_words(loss), found
+    return clock(loss.time_s), agent(loss.owners[0]), loss_words(loss), found_words(loss)
 
 
 def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:

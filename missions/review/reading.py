@@ -10,12 +10,14 @@ from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 from ruamel.yaml import YAML
+from ruamel.yaml.error import YAMLError
 
 from comms.arena import Arena, disc, rectangle
 from missions.faults.costs import Costs
 from missions.metrics import Metrics
 from missions.mission.faults import AnyFault, Faults
 from missions.observation import Observation
+from missions.problems import InputError
 from missions.recording.playback import Playback, play_back
 from missions.report import Report, report_of
 from missions.review.calls import Call, calls_of
@@ -33,6 +35,7 @@ class Review:
     Attributes:
         report: what the mission itself reported, but for wall times. complete: it lasted its whole duration.
         settings: the mission file, with every default, as it was recorded. arena, sensing_range_m: from there.
+        unknown_faults: its faults on purpose are none that this version knows.
         began_s: mission clock at the beginning of MISSION; None if it never began.
     """
 
@@ -43,6 +46,7 @@ class Review:
     arena: Arena
     sensing_range_m: float
     began_s: float | None
+    unknown_faults: bool
     calls: Sequence[Call]
     losses: Sequence[Loss]
     lines: Sequence[Line]
@@ -53,7 +57,12 @@ class Review:
         notes = []
         if self.playback.torn:
             end = clock(self.playback.observations[-1].time_s)
-            notes.append(f"The recorder was killed. The recording was repaired to be read, and ends at {end}.")
+            notes.append(
+                "The recording is not finished: its mission flies still, or its recorder was killed. "
+                f"A copy was repaired to be read, and ends at {end}."
+            )
+        if self.unknown_faults:
+            notes.append("Its faults on purpose are told in words of another version: what they cost is not counted.")
         if self.playback.ticks_missing:
             notes.append(f"{self.playback.ticks_missing} ticks are missing: what is counted is counted without them.")
         return notes
@@ -72,34 +81,50 @@ def read(path: Path) -> Review:
         InputError: there is no such file, or it is no recording of a mission.
     """
     playback = play_back(path)
+    try:
+        return _read(playback)
+    except (LookupError, TypeError, ValueError, AttributeError, YAMLError) as error:
+        raise InputError(
+            f"{path}: got a mission that this version does not understand ({type(error).__name__}: {error}); "
+            "allowed: what its swarm launch --record wrote"
+        ) from error
+
+
+def _read(playback: Playback) -> Review:
     observations, facts = playback.observations, playback.facts
     # Read leniently: another version may have written keys that this one does not know.
     settings: Mapping[str, Any] = YAML(typ="safe", pure=True).load(playback.mission_yaml)
-    metrics = Metrics(costs=Costs(_faults(settings.get("faults", [])), tick_s=facts.tick_s))
+    faults = _faults(settings.get("faults", []))
+    metrics = Metrics(costs=Costs(faults or (), tick_s=facts.tick_s))
     for seen in observations:
         metrics.observe(seen)
     range_m, speed_m_s = settings["agents"]["sensing"]["range_m"], settings["agents"]["speed_m_s"]
     calls = calls_of(observations)
     losses = losses_of(observations, calls, speed_m_s=speed_m_s, sensing_range_m=range_m)
+    flown = [seen for seen in observations if seen.mission_tick is not None]
+    # By the last tick's number: a real-time recording may lack some in between.
+    last_tick = -1 if not flown else flown[-1].mission_tick or 0
     return Review(
         playback=playback,
-        report=report_of(facts, metrics, wall_s=None, clock_s=observations[-1].time_s, recording=path),
-        complete=metrics.ticks >= round(settings["duration_s"] / facts.tick_s),
+        report=report_of(facts, metrics, wall_s=None, clock_s=observations[-1].time_s, recording=playback.path),
+        complete=last_tick + 1 >= round(settings["duration_s"] / facts.tick_s),
         settings=settings,
         arena=_arena(settings["arena"]),
         sensing_range_m=range_m,
-        began_s=next((seen.time_s for seen in observations if seen.mission_tick is not None), None),
+        began_s=flown[0].time_s if flown else None,
+        unknown_faults=faults is None,
         calls=calls,
         losses=losses,
         lines=timeline_of(observations, calls, losses),
     )
 
 
-def _faults(settings: Any) -> tuple[AnyFault, ...]:
+def _faults(settings: Any) -> tuple[AnyFault, ...] | None:
+    """The faults on purpose; None when they are none that this version knows."""
     try:
         return TypeAdapter[tuple[AnyFault, ...]](Faults).validate_python(settings)
     except ValidationError:
-        return ()
+        return None
 
 
 def _arena(settings: Mapping[str, Any]) -> Arena:

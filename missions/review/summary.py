@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from math import inf
 
 from rich.console import Console, Group, RenderableType
 from rich.table import Table
@@ -12,11 +13,11 @@ from rich.text import Text
 from comms.status import Activity
 from missions.colors import ACTIVITY_COLORS, ACTIVITY_INKS, hex_color
 from missions.review.calls import Fate
-from missions.review.highlights import Highlight, highlights, told
+from missions.review.highlights import LONG_S, Highlight, highlights, told
 from missions.review.losses import longest
 from missions.review.reading import Review
 from missions.review.series import Bucket, buckets
-from missions.review.timeline import loss_words
+from missions.review.timeline import found_words, loss_words
 from missions.review.words import agent, clock, percent
 
 _BLOCKS = " ▁▂▃▄▅▆▇█"
@@ -152,9 +153,8 @@ def _highlights(found: Iterable[Highlight]) -> Table:
 def _losses(review: Review) -> Table:
     table = Table(title="Losses", title_justify="left", title_style="bold", box=None, pad_edge=False, show_header=False)
     for loss in longest(review.losses, _SHOWN_LOSSES):
-        found = "never found again" if loss.found_after_s is None else f"found after {loss.found_after_s:.1f} s"
-        color = _BAD if loss.found_after_s is None or loss.found_after_s > 10.0 else ""
-        table.add_row(clock(loss.time_s), agent(loss.owners[0]), loss_words(loss), Text(found, color))
+        color = _BAD if not loss.left and (loss.found_after_s or inf) > LONG_S else ""
+        table.add_row(clock(loss.time_s), agent(loss.owners[0]), loss_words(loss), Text(found_words(loss), color))
     if len(review.losses) > _SHOWN_LOSSES:
         table.add_row("", "", Text(f"and {len(review.losses) - _SHOWN_LOSSES} shorter ones: --events", _DIM), "")
     return table

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from comms.status import OFF_DUTY, Activity, Level
 from missions.observation import Observation
 from missions.review.calls import Call
-from missions.review.losses import Loss
+from missions.review.losses import Chance, Loss
 from missions.review.words import agent, agents, clock, target
 
 _DOING = max(len(activity.value) for activity in Activity)
@@ -37,7 +37,7 @@ _STARTS = {
 class Line:
     """One line: when (mission clock), who (None: the mission), doing what, and what happened.
 
-    `routine`: it is said on every flight.
+    `routine`: it is said on every flight, or was just said.
     """
 
     time_s: float
@@ -55,7 +55,7 @@ class Line:
 
 def timeline_of(observations: Sequence[Observation], calls: Sequence[Call], losses: Sequence[Loss]) -> list[Line]:
     """What happened, in order of time."""
-    lines = _without_echoes(line for seen in observations for line in _said(seen))
+    lines = list(_echoes_aside(line for seen in observations for line in _said(seen)))
     for before, now in pairwise(observations):
         lines += _starts(before, now)
     by_time = {seen.time_s: seen for seen in observations}
@@ -73,18 +73,36 @@ def call_words(call: Call) -> str:
 
 def loss_words(loss: Loss) -> str:
     """A loss and what would have prevented it, on one line."""
+    if loss.left:
+        return f"{target(loss.target)} has left the arena"
     gone = f", for {agents(loss.owners)} is out" if loss.owners_gone else ""
     called = "no call was out" if loss.call is None else f"called for {max(0.0, loss.time_s - loss.call.began_s):.1f} s"
     coming = [f"{agents(loss.helpers)} on the way"] if loss.helpers else []
     return "; ".join([f"nobody has {target(loss.target)} any more{gone}", called, *coming, _chance_words(loss)])
 
 
+def found_words(loss: Loss) -> str:
+    """When somebody had the target again."""
+    if loss.left:
+        return ""
+    return "never found again" if loss.found_after_s is None else f"found after {loss.found_after_s:.1f} s"
+
+
 def _chance_words(loss: Loss) -> str:
     if not loss.chances:
         return "nobody free was near enough"
     best = loss.chances[0]
-    earshot = "heard its calls" if best.heard else "was out of earshot"
-    return f"{agent(best.agent)} could have come, leaving {loss.time_s - best.leave_by_s:.1f} s before; it {earshot}"
+    return (
+        f"{agent(best.agent)} could have come, leaving {loss.time_s - best.leave_by_s:.1f} s before; "
+        f"{why_it_did_not(best)}"
+    )
+
+
+def why_it_did_not(chance: Chance) -> str:
+    """What kept an agent that could have come: radio, or that nobody had called while there was time."""
+    if not chance.in_touch:
+        return "it was out of earshot"
+    return "it heard the call" if chance.called else "nobody had called by then"
 
 
 def _said(seen: Observation) -> Iterator[Line]:
@@ -96,21 +114,22 @@ def _said(seen: Observation) -> Iterator[Line]:
             yield Line(seen.time_s, status.uid, status.activity, event.level, event.text, routine)
 
 
-def _without_echoes(lines: Iterator[Line]) -> list[Line]:
-    """The lines without those in which a speaker repeats the last it said of a target."""
+def _echoes_aside(lines: Iterator[Line]) -> Iterator[Line]:
+    """The lines, those routine in which a speaker repeats the last it said of a target; an error is never routine."""
     last: dict[tuple[int | None, str], tuple[str, float]] = {}
-    kept = []
     for line in lines:
         about = _ABOUT.match(line.text)
-        if about is not None:
-            words = about[0]
-            key = line.who, words.rpartition("T")[2]
-            before, at_s = last.get(key, ("", 0.0))
-            if before == words and line.time_s - at_s < _TOLD_AGAIN_S:
-                continue
+        if about is None or line.level is Level.ERROR:
+            yield line
+            continue
+        words = about[0]
+        key = line.who, words.rpartition("T")[2]
+        before, at_s = last.get(key, ("", 0.0))
+        if before == words and line.time_s - at_s < _TOLD_AGAIN_S:
+            yield replace(line, routine=True)
+        else:
             last[key] = words, line.time_s
-        kept.append(line)
-    return kept
+            yield line
 
 
 def _starts(before: Observation, now: Observation) -> Iterator[Line]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import inf
+
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
@@ -34,7 +36,7 @@ def from_above(review: Review) -> Figure:
         _edge(axes, review)
         _paths(axes, review)
         for loss in review.losses:
-            if loss.found_after_s is None or loss.found_after_s > _MARKED_S:
+            if not loss.left and (loss.found_after_s or inf) > _MARKED_S:
                 place = review.at(loss.time_s).targets[loss.target]
                 axes.plot(place.x_m, place.y_m, "x", color=_BAD, markersize=7, markeredgewidth=2, zorder=4)
         axes.set_title("Agents ●, targets ■, losses ×")

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import groupby
+from itertools import groupby, pairwise
 
 import matplotlib as mpl
 import numpy as np
 import numpy.typing as npt
 from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, MaxNLocator
@@ -23,6 +24,7 @@ from missions.study.style import DIM, INK, STYLE, percent_axis
 _WIDTH_IN, _COVERAGE_IN, _LANE_IN, _DISTANCES_IN = 9.0, 1.9, 0.17, 1.7
 _MOST_LANES_IN = 4.2
 _FAULT_IN = 0.16
+_HALF_LANE = 0.43
 _LETTER = 0.0085  # of the width of the picture
 _POINTS = 600  # along time: finer than a screen
 _GREEN = hex_color(ACTIVITY_COLORS[Activity.FOLLOW])
@@ -45,7 +47,7 @@ def over_time(review: Review, *, titled: bool = True) -> Figure:
             _faults(axes.pop(0), faults, axes)
         _coverage(axes[0], review)
         _lanes(axes[1], review)
-        _distances(axes[2], review, seen)
+        _distances(axes[2], review)
         clock_axis(axes[2], "time since power-on")
         axes[2].set_xlim(seen[0].time_s, seen[-1].time_s)
         if titled:
@@ -54,8 +56,13 @@ def over_time(review: Review, *, titled: bool = True) -> Figure:
 
 
 def thinned(observations: Sequence[Observation]) -> Sequence[Observation]:
-    """So many of them that a line through all is smooth."""
-    return observations[:: max(1, len(observations) // _POINTS)]
+    """So many of them that a line through all is smooth; the last is among them."""
+    kept = observations[:: _stride(observations)]
+    return kept if kept[-1] is observations[-1] else [*kept, observations[-1]]
+
+
+def _stride(observations: Sequence[Observation]) -> int:
+    return max(1, len(observations) // _POINTS)
 
 
 def clock_axis(axes: Axes, words: str) -> None:
@@ -130,7 +137,7 @@ def _coverage(axes: Axes, review: Review) -> None:
     floor = review.report["coverage_floor"]
     if floor is not None:
         axes.axhline(floor, color=DIM, linewidth=1.0, linestyle=(0, (4, 3)), label="random, standing still")
-    lost_s = [loss.time_s for loss in review.losses]
+    lost_s = [loss.time_s for loss in review.losses if not loss.left]
     if lost_s:
         axes.vlines(lost_s, 0.0, 0.07, color=_BAD, linewidth=1.6, label="a target is lost")
     percent_axis(axes)
@@ -142,12 +149,16 @@ def _lanes(axes: Axes, review: Review) -> None:
     """A lane for each agent, A0 on top, and what the colors mean."""
     observations, met = review.playback.observations, set[Activity]()
     n_agents, end_s = review.playback.facts.agents, observations[-1].time_s
+    boxes, colors = [], []
     for uid in range(n_agents):
-        for activity, run in groupby(observations, key=lambda seen: seen.statuses[uid].activity):
-            began_s = next(run).time_s
+        runs = groupby(observations, key=lambda seen: seen.statuses[uid].activity)
+        starts = [(next(run).time_s, activity) for activity, run in runs]
+        for (from_s, activity), (until_s, _) in pairwise([*starts, (end_s, None)]):
+            low, high = uid - _HALF_LANE, uid + _HALF_LANE
+            boxes.append(((from_s, low), (from_s, high), (until_s, high), (until_s, low)))
+            colors.append(hex_color(ACTIVITY_COLORS[activity]))
             met.add(activity)
-            # Each piece reaches to the end, and the next one covers it: no gaps.
-            axes.barh(uid, end_s - began_s, left=began_s, height=0.86, color=hex_color(ACTIVITY_COLORS[activity]))
+    axes.add_collection(PolyCollection(boxes, facecolors=colors, linewidths=0, antialiased=False))
     axes.set_ylim(n_agents - 0.4, -0.6)
     every = max(1, n_agents // 12)
     axes.set_yticks(range(0, n_agents, every), [agent(uid) for uid in range(0, n_agents, every)])
@@ -161,12 +172,17 @@ def _lanes(axes: Axes, review: Review) -> None:
     axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncols=len(handles), fontsize=8)
 
 
-def _distances(axes: Axes, review: Review, seen: Sequence[Observation]) -> None:
-    """How far each target is from the nearest agent: green in sight, red out of it."""
-    times = np.array([one.time_s for one in seen])
+def _distances(axes: Axes, review: Review) -> None:
+    """How far each target is from the nearest agent: red from one point to the next if nobody saw it in between."""
+    observations = review.playback.observations
+    shown = thinned(observations)
+    times = np.array([one.time_s for one in shown])
+    unseen = np.array([[not target.seen for target in one.targets] for one in observations])
+    starts = np.arange(0, max(1, len(observations) - 1), _stride(observations))
+    lost = np.logical_or.reduceat(unseen, starts, axis=0)
     for target in range(review.playback.facts.targets):
-        away = np.array([_nearest_m(one, target) for one in seen])
-        colors = [_GOOD if one.targets[target].seen else _BAD for one in seen[:-1]]
+        away = np.array([_nearest_m(one, target) for one in shown])
+        colors = [_BAD if out else _GOOD for out in lost[: len(shown) - 1, target]]
         for run, color in colored_runs(np.column_stack((times, away)), colors):
             axes.plot(*run.T, color=color, linewidth=1.0, alpha=0.8)
     axes.axhline(review.sensing_range_m, color=INK, linewidth=1.0, linestyle=(0, (4, 3)))

@@ -12,7 +12,15 @@ from tests.missions.review.conftest import Flown
 
 
 def _loss(**changes: object) -> Loss:
-    plain = {"time_s": 60.0, "target": 7, "owners": (1,), "owners_gone": False, "call": None, "helpers": ()}
+    plain = {
+        "time_s": 60.0,
+        "target": 7,
+        "owners": (1,),
+        "owners_gone": False,
+        "left": False,
+        "call": None,
+        "helpers": (),
+    }
     return Loss(**{**plain, "chances": (), "found_after_s": 30.0, **changes})  # type: ignore[arg-type]
 
 
@@ -28,10 +36,10 @@ def test_nothing_stands_out_where_nothing_happened(flown: Flown) -> None:
 
 
 def test_a_long_loss_is_told_with_its_cause(flown: Flown) -> None:
-    chance = Chance(agent=4, leave_by_s=55.0, distance_m=8.0, heard=True)
+    chance = Chance(agent=4, leave_by_s=55.0, distance_m=8.0, in_touch=True, called=True)
     for loss, words in (
         (_loss(owners_gone=True), "T7 is lost for 30 s: A1, which had it, was out"),
-        (_loss(chances=(chance,)), "it got away from A1; A4 was free and near enough, and heard the call"),
+        (_loss(chances=(chance,)), "it got away from A1; A4 was free and near enough: it heard the call"),
         (_loss(helpers=(3,)), "it got away from A1; A3 came too late"),
         (_loss(found_after_s=None), "T7 is lost for good: it got away from A1, and nobody free was near enough"),
     ):

@@ -137,3 +137,12 @@ def test_what_is_no_recording_is_bad_input(tmp_path: Path, content: bytes) -> No
     path.rename(tmp_path / "odd.tlog")
     with pytest.raises(InputError, match="swarm import makes of it"):
         read(tmp_path / "odd.tlog")
+
+
+def test_a_mission_that_is_not_understood_is_bad_input(tmp_path: Path) -> None:
+    scene = toy_scene()  # its mission file has none of the keys that a review asks for
+    with Recorder(tmp_path / "toy.rrd", scene=scene) as recorder:
+        for seen in toy_observations(scene, ticks=30):
+            recorder.observe(seen)
+    with pytest.raises(InputError, match="got a mission that this version does not understand"):
+        read(tmp_path / "toy.rrd")

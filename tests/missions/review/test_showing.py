@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from html.parser import HTMLParser
 from pathlib import Path
@@ -26,7 +27,7 @@ def test_the_summary_has_the_numbers_of_the_report(flown: Flown, capsys: pytest.
     told = _told(capsys, str(flown.recording))
     assert f"{100 * flown.report['coverage']:.1f} %" in told
     assert f"{flown.report['help']['calls']} calls" in told
-    assert "complete" in told
+    assert ", complete" in told
     assert told.count("any more") == min(12, len(flown.review.losses))
 
 
@@ -91,6 +92,29 @@ def test_pictures_are_png_or_svg_and_repeat_exactly(flown: Flown, tmp_path: Path
     assert ElementTree.parse(tmp_path / "one.svg").getroot().tag.endswith("svg")
 
 
+def test_beside_json_words_go_where_people_look(flown: Flown, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["review", str(flown.recording), "--json", "--check", "coverage > 0"]) == 0
+    told = capsys.readouterr()
+    assert json.loads(told.out)["coverage"] > 0
+    assert "holds: coverage > 0" in told.err
+
+
+def test_it_is_told_which_of_two_recordings_fails_a_check(flown: Flown, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["review", str(flown.recording), str(flown.recording), "--check", "coverage > 2"]) == 1
+    assert capsys.readouterr().out.count(f"{flown.recording.name}: FAILS: coverage > 2") == 2
+
+
+def test_missions_at_other_places_are_not_the_same(
+    flown: Flown, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    short = ["launch", "narrow", "--duration", "2", "--set", "agents.count=1", "--set", "targets.count=1"]
+    for name, speed in (("slow", ".1"), ("fast", ".3")):
+        given = ["--set", f"targets.speed_m_s={speed}", "--record", str(tmp_path / f"{name}.rrd")]
+        assert main([*short, *given]) == 0
+    told = _told(capsys, str(tmp_path / "slow.rrd"), str(tmp_path / "fast.rrd"))
+    assert told.startswith("Everybody does the same in both missions, at other places.")
+
+
 def test_two_missions_are_held_against_each_other(
     flown: Flown, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -117,6 +141,9 @@ def test_two_missions_are_held_against_each_other(
         (["--plot", "picture.jpg"], "allowed: a file that ends with .png or .svg"),
         (["--plot", "/nowhere/picture.png"], "allowed: a file that can be written"),
         (["--report", "/nowhere/page.html"], "allowed: a file that can be written"),
+        (["--report", "flown.rrd"], "allowed: a file that ends with .html or .htm"),
+        (["--check", "coverage > nan"], "--check: got"),
+        (["--check", "timing.wall_s < 100"], "--check: got"),
         (["b.rrd", "c.rrd"], "got 3 recordings; allowed: one, or two to compare"),
         (["b.rrd", "--events"], "--events: got 2 recordings; allowed: one"),
     ],
