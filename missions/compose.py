@@ -26,6 +26,7 @@ from swarm_agent.autopilot import Pilot, PilotConfig
 from swarm_agent.bcmommt.net import BLANK, Net
 from swarm_agent.bcmommt.params import Answering, Call, Capture, Explore, Gate, Params, Policy, Predictor, with_range
 from swarm_agent.fence import Fence, circle, polygon
+from swarm_agent.reserve import ReserveConfig
 from swarm_agent.safety import SafetyConfig, stopping_distance_m
 from vehicle_sim.autopilot import SimulatedVehicle
 from vehicle_sim.battery import Battery
@@ -168,13 +169,23 @@ def agents(mission: Mission, uids: Iterable[int], n_targets: int) -> list[Agent]
                     separation_m=0.0 if mission.vehicle.kind == "ideal" else mission.safety.separation_m,
                     max_speed_m_s=mission.agents.speed_m_s,
                     acceleration_m_s2=mission.vehicle.limits.acceleration_m_s2,
-                    battery_reserve=mission.safety.battery_reserve,
                 ),
+                reserve=reserve(mission, uid),
             ),
             signing=signing(mission, uid),
         )
         for uid in uids
     ]
+
+
+def reserve(mission: Mission, uid: int) -> ReserveConfig:
+    """What must be left in the battery of agent `uid`'s vehicle for its way home."""
+    if mission.vehicle.kind == "ideal":  # it does not tire: its missions are those of a study
+        return ReserveConfig()
+    share, battery = mission.safety.battery_reserve, Battery(**mission.vehicle.battery.model_dump())
+    # A vehicle elsewhere has a battery of its own, of which the mission knows nothing.
+    voltage_v = battery.voltage_in_hover(share) if mission.link(uid) is None and share > 0.0 else None
+    return ReserveConfig(share=share, voltage_v=voltage_v)
 
 
 def signing(mission: Mission, uid: int) -> Signing | None:

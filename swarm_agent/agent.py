@@ -24,14 +24,17 @@ from swarm_agent.bcmommt.modes import Mode
 from swarm_agent.bcmommt.params import Explore, Params
 from swarm_agent.bcmommt.speech import answers_said, calls_said, hear, tags_said
 from swarm_agent.bcmommt.step import Mind, new_mind
+from swarm_agent.farewell import Farewell
 from swarm_agent.insight import insight
 from swarm_agent.mates import Mates
 from swarm_agent.news import news
 from swarm_agent.policies.choice import decide
 from swarm_agent.reasons import Reasons
+from swarm_agent.reserve import Battery, Reserve, ReserveConfig
 from swarm_agent.safety import Guard, SafetyConfig
 
 _NOWHERE = (0.0, 0.0, 0.0)
+_HOMEWARD = frozenset({Phase.RETURN, Phase.LAND})
 FRAMES_PER_S = 1000  # no agent sends more: a number that counts from the clock is above all that came before
 
 
@@ -71,6 +74,7 @@ class AgentConfig:
     radio_range_m: float
     pilot: PilotConfig
     safety: SafetyConfig
+    reserve: ReserveConfig
 
 
 class Output(NamedTuple):
@@ -89,11 +93,13 @@ class Agent:
         self._config = config
         self._signing = signing
         self._on_duty = False
+        self._farewell: Farewell | None = None
         self._table, self._mind = self._innocence()
         self._wanted_m_s = 0.0, 0.0
         self._seq = 0
         self._told: AgentStatus | None = None
         self._guard = Guard(config.safety)
+        self._reserve = Reserve(config.reserve)
         self._mates = self._new_mates()
         self.pilot = Pilot(config.pilot, signing=signing)
 
@@ -119,7 +125,8 @@ class Agent:
         pilot.listen(now_s, telemetry)
         state = pilot.state
         self._guard.hear(now_s, inbox)
-        come_home = order.come_home or order.land or self._guard.spent(state.battery)
+        spent = self._reserve.spent(now_s, Battery(state.battery, state.voltage_v, state.battery_low))
+        come_home = order.come_home or order.land or spent
         frame: Frame | None = None
         intent: Intent
         on_duty = state.ready and not state.link_lost and order.mission_tick is not None and not come_home
@@ -130,10 +137,8 @@ class Agent:
             frame = self._say(now_s, state.position_m, state.velocity_m_s)
         else:
             intent = Land() if order.land else Return() if come_home else Prepare()
-            if self._on_duty:  # on the ground or in other hands it must not hold on to targets
-                self._table, self._mind = self._innocence()
-                self._mates = self._new_mates()
-        self._on_duty = frame is not None
+            frame = self._take_leave(now_s, order, sightings, inbox, goes_home=come_home or state.phase in _HOMEWARD)
+        self._on_duty = frame is not None and self._farewell is None
         wire = pilot.act(now_s, intent)
         return Output(frame, wire, self._tell(now_s, self._status(pilot.state, inbox), explain=order.explain))
 
@@ -150,7 +155,10 @@ class Agent:
         """The status with everything to be said in words: by the autopilot, the pilot and the algorithm."""
         x, y, _ = status.position_m or _NOWHERE
         reasons = Reasons(self._table, self._config.params, self._mind, self._config.uid, x, y, now_s)
-        events = self.pilot.take_events() + self._guard.take_events() + self._mates.take_events()
+        events = self.pilot.take_events() + self._guard.take_events() + self._reserve.take_events()
+        events += self._mates.take_events()
+        if self._farewell is not None:
+            events += self._farewell.take_events()
         events += news(self._told, status, reasons)
         self._told = status
         if explain:
@@ -180,6 +188,28 @@ class Agent:
         )
         self._wanted_m_s = (0.0, 0.0) if hold else (east, north)
         return Fly(self._guard.safe(now_s, me, self._wanted_m_s))
+
+    def _take_leave(
+        self, now_s: float, order: Order, sightings: Sequence[Sighting], inbox: Sequence[Frame], *, goes_home: bool
+    ) -> Frame | None:
+        """Who goes while the mission goes on calls for its targets; else, and at last, it forgets, and is silent."""
+        if not (self._on_duty or self._farewell):
+            return None
+        state = self.pilot.state
+        leaves = goes_home and order.mission_tick is not None and not (state.link_lost or state.landed)
+        if leaves and state.position_m and state.velocity_m_s:
+            self._perceive(now_s, state.position_m, sightings, inbox)
+            if self._farewell is None:
+                self._farewell = Farewell(self._table)
+                self._mind = new_mind(*self._config.heading)
+            self._farewell.tick(self._table, self._config.params, now_s)
+            if not self._farewell.over:
+                return self._say(now_s, state.position_m, state.velocity_m_s)
+        # On the ground or in other hands it must not hold on to targets.
+        self._table, self._mind = self._innocence()
+        self._mates = self._new_mates()
+        self._farewell = None
+        return None
 
     def _say(
         self, now_s: float, position_m: tuple[float, float, float], velocity_m_s: tuple[float, float, float]

@@ -46,7 +46,6 @@ class SafetyConfig:
         uid: whose safety it is. separation_m: least horizontal distance to a mate on the same layer; 0: mates do not
             matter.
         max_speed_m_s, acceleration_m_s2: what its vehicle can do, horizontally.
-        battery_reserve: with this share of its battery left it must come home.
     """
 
     uid: int
@@ -54,7 +53,6 @@ class SafetyConfig:
     separation_m: float
     max_speed_m_s: float
     acceleration_m_s2: float
-    battery_reserve: float = 0.0
 
 
 class Limit(NamedTuple):
@@ -78,7 +76,6 @@ class Guard:
         self._reach_m = stopping_distance_m(config.max_speed_m_s, config.acceleration_m_s2)
         self._mates: dict[int, tuple[float, Frame]] = {}
         self._outside = False
-        self._spent = False
         self._events: list[Event] = []
 
     def hear(self, now_s: float, inbox: Sequence[Frame]) -> None:
@@ -107,13 +104,6 @@ class Guard:
         if _excess(wish_m_s, [self._limit(mate) for mate in mates]) > TOLERANCE_M_S:
             wish_m_s = _turned_right(wish_m_s)
         return nearest_allowed(wish_m_s, limits, max_speed_m_s=self._config.max_speed_m_s)
-
-    def spent(self, battery: float | None) -> bool:
-        """Whether the battery has ever been down to its reserve (None: unknown)."""
-        if battery is not None and battery <= self._config.battery_reserve and not self._spent:
-            self._spent = True
-            self._events.append(Event(Level.ERROR, f"battery at {battery:.0%}: coming home"))
-        return self._spent
 
     def take_events(self) -> tuple[Event, ...]:
         """What happened since the last call."""

@@ -38,6 +38,10 @@ class Battery:
             if not 0.0 < getattr(self, name) < 1e6:
                 raise ValueError(f"battery.{name} is above 0 and below 1e6, not {getattr(self, name)}")
 
+    def voltage_in_hover(self, charge: float) -> float:
+        """The voltage that is measured in hover with this share of the charge left."""
+        return self.voltage_v * voltage_at(charge) - self.hover_current_a * RESISTANCE_OHM
+
 
 class Charge:
     """What is left in one battery.

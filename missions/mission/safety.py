@@ -60,5 +60,5 @@ class Safety(Part):
     """No layer is higher above home."""
     separation_m: Annotated[float, Field(ge=0, le=1000)] = 2.0
     """Least horizontal distance between agents that share a layer; ideal vehicles, being points, do not keep it."""
-    battery_reserve: Annotated[float, Field(ge=0, lt=1)] = 0.0
-    """An agent comes home when its battery has this share left."""
+    battery_reserve: Annotated[float, Field(ge=0, lt=1)] = 0.2
+    """An agent comes home when its battery has this share left, or its autopilot says that it is low; not if ideal."""

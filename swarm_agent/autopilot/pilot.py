@@ -91,6 +91,8 @@ class Pilot:
             velocity_m_s=telemetry.velocity_m_s,
             heading_rad=telemetry.heading_rad,
             battery=telemetry.battery,
+            voltage_v=telemetry.voltage_v,
+            battery_low=telemetry.battery_low,
             armed=telemetry.armed,
             flight_mode=self._cockpit.mode_name,
             landed=telemetry.landed,

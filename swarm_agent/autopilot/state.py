@@ -36,7 +36,8 @@ class PilotState(msgspec.Struct, frozen=True, kw_only=True):
         ready: it has reached its layer and follows `Fly` now.
         position_m, velocity_m_s: None until the autopilot has a position and its origin is known.
         heading_rad: where the nose points, clockwise from north, 0 to 2 pi.
-        battery: remaining share, 0 to 1; None when unknown.
+        battery: remaining share, 0 to 1; None when unknown. voltage_v: likewise. battery_low: the autopilot calls it
+            low, or worse.
         landed: on the ground; None when not yet told.
         link_lost: no heartbeat for `PilotConfig.link_lost_s`.
         failure: why the phase is FAILED, else empty.
@@ -48,6 +49,8 @@ class PilotState(msgspec.Struct, frozen=True, kw_only=True):
     velocity_m_s: Vec3 | None
     heading_rad: float
     battery: float | None
+    voltage_v: float | None
+    battery_low: bool
     armed: bool
     flight_mode: str
     landed: bool | None

@@ -14,6 +14,12 @@ LARGEST_POSITION_M = 1e6  # a vehicle that says it is farther from its own origi
 LARGEST_SPEED_M_S = 1e3
 FRAMES_AGREE_M = 25.0  # local and global position may differ by this: GPS noise, a second of flight, the tangent plane
 LOCAL_LAG_M_S = 1.0
+LOW = frozenset({
+    dialect.MAV_BATTERY_CHARGE_STATE_LOW, dialect.MAV_BATTERY_CHARGE_STATE_CRITICAL,
+    dialect.MAV_BATTERY_CHARGE_STATE_EMERGENCY, dialect.MAV_BATTERY_CHARGE_STATE_FAILED,
+    dialect.MAV_BATTERY_CHARGE_STATE_UNHEALTHY,
+})  # fmt: skip
+NOT_MEASURED = (0, 65535)  # SYS_STATUS.voltage_battery of a vehicle without a battery monitor
 RESTART_MS = 5000  # a boot clock that falls back this far belongs to a new boot
 
 
@@ -26,6 +32,7 @@ class Telemetry:
         autopilot: HEARTBEAT.autopilot, None before the first.
         origin_m: the vehicle's own origin in the mission's frame.
         position_m, velocity_m_s: in the mission's frame; position None until origin and local position are known.
+        battery_low: the autopilot calls its battery low, or worse.
         has_fix: the autopilot's estimator knows where it is (True where the autopilot does not report on it).
         landed_state: MAV_LANDED_STATE; 0 unknown.
         prearm_ok: the pre-arm health bit.
@@ -34,9 +41,10 @@ class Telemetry:
     """
 
     __slots__ = (
-        "armed", "attitude_at_s", "autopilot", "battery", "boot_ms", "clock_at_s", "custom_mode", "geo", "has_fix",
-        "heading_rad", "heartbeat_at_s", "heartbeat_gap_s", "home", "ignored", "landed_state", "local_enu_m",
+        "armed", "attitude_at_s", "autopilot", "battery", "battery_low", "boot_ms", "clock_at_s", "custom_mode", "geo",
+        "has_fix", "heading_rad", "heartbeat_at_s", "heartbeat_gap_s", "home", "ignored", "landed_state", "local_enu_m",
         "origin_m", "position_at_s", "position_m", "prearm_ok", "restarts", "system_status", "velocity_m_s",
+        "voltage_v",
     )  # fmt: skip
 
     def __init__(self, home: GeoPoint) -> None:
@@ -63,6 +71,8 @@ class Telemetry:
         self.attitude_at_s: float | None = None
         self.heading_rad = 0.0
         self.battery: float | None = None
+        self.battery_low = False
+        self.voltage_v: float | None = None
         self.landed_state = 0
         self.prearm_ok = False
         self.has_fix = True
@@ -172,11 +182,16 @@ def _global_position(telemetry: Telemetry, message: Message, now_s: float) -> bo
 def _status(telemetry: Telemetry, message: Message, now_s: float) -> bool:
     health = message.onboard_control_sensors_health
     telemetry.prearm_ok = bool(health & dialect.MAV_SYS_STATUS_PREARM_CHECK)
+    millivolts = message.voltage_battery
+    telemetry.voltage_v = None if millivolts in NOT_MEASURED else millivolts / 1000.0
     return _remaining(telemetry, message.battery_remaining)
 
 
 def _battery(telemetry: Telemetry, message: Message, now_s: float) -> bool:
-    return message.id != 0 or _remaining(telemetry, message.battery_remaining)
+    if message.id != 0:
+        return True
+    telemetry.battery_low = message.charge_state in LOW
+    return _remaining(telemetry, message.battery_remaining)
 
 
 def _remaining(telemetry: Telemetry, percent: int) -> bool:

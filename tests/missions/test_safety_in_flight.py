@@ -81,6 +81,28 @@ def test_an_agent_whose_battery_is_at_its_reserve_lets_go_and_comes_home() -> No
     assert told == ["battery at 90%: coming home"] * 3
 
 
+@pytest.mark.parametrize("flavor", ["ardupilot", "px4"])
+def test_whose_battery_is_nearly_empty_calls_for_its_targets_and_lands_before_it_falls(flavor: str) -> None:
+    changes = ("agents={count: 3, deployment: {radius_m: 6}}", "seed=2", "duration_s=70", "policy.call=predicted")
+    targets = "targets={motion: static, count: 4, deployment: {radius_m: 6}}"
+    fault = "faults=[{kind: battery_low, at_s: 5, agents: [0], charge: 0.1}]"
+    _, kept, metrics = fly(*changes, targets, fault, f"vehicle.flavor={flavor}")
+    [number] = [
+        number
+        for number, tick in enumerate(kept.ticks)
+        if tick.statuses[0].activity is Activity.RETURNING
+        and kept.ticks[number - 1].statuses[0].activity is not Activity.RETURNING
+    ]
+    left, goes, last = kept.ticks[number - 1].statuses[0].tags, kept.ticks[number].statuses[0], kept.ticks[-1]
+    assert goes.tags == ()
+    assert goes.calls
+    assert {call.target for call in goes.calls} <= set(left)
+    assert last.statuses[0].activity is Activity.LANDED
+    assert set(left) <= {target for mate in last.statuses[1:] for target in mate.tags}
+    assert [fault.what.partition(" at ")[0] for fault in metrics.faults] == ["battery", "leaves the mission: landed"]
+    assert min(tick.truths[0].velocity_m_s[2] for tick in kept.ticks) > -3.0  # what falls is faster
+
+
 def test_the_fence_of_an_arena_leaves_room_to_stop() -> None:
     disc = load_mission("quickstart", overrides=[Override("safety.fence.margin_m=7")])
     assert compose.fence(disc).core_m == pytest.approx(37.0, rel=0.002)

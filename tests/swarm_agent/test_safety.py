@@ -141,16 +141,6 @@ def test_who_is_outside_says_so_once_and_comes_back() -> None:
     assert [event.text for event in mine.take_events()] == ["inside its fence again"]
 
 
-def test_a_battery_at_its_reserve_stays_spent_and_is_told_once() -> None:
-    mine = Guard(
-        SafetyConfig(
-            uid=0, fence=SQUARE, separation_m=2.0, max_speed_m_s=5.0, acceleration_m_s2=2.5, battery_reserve=0.2
-        )
-    )
-    assert [mine.spent(battery) for battery in (None, 0.9, 0.21, 0.2, 0.5, None)] == [False] * 3 + [True] * 3
-    assert [event.text for event in mine.take_events()] == ["battery at 20%: coming home"]
-
-
 @pytest.mark.parametrize("bad", [nan, inf, -inf, 1e308])
 def test_numbers_that_are_none_are_never_flown(bad: float) -> None:
     mine = guard()
