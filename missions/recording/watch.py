@@ -1,4 +1,4 @@
-"""Viewers beside a running mission: rerun's own window, or its page in a browser. Both serve this machine alone."""
+"""Viewers of recordings and of running missions: rerun's own window, or its page for browsers on this machine."""
 
 from __future__ import annotations
 
@@ -7,18 +7,40 @@ import os
 import signal
 import socket
 import subprocess
+from collections.abc import Sequence
 from urllib.parse import quote
 
 from missions.recording.optimize import rerun_command
 
 LOOPBACK = "127.0.0.1"
 _STOP_S = 5.0
+_OPENED_S = 0.5  # a window that is there for so long is there
 _log = logging.getLogger(__name__)
 
 
-def open_window(server_url: str) -> None:
-    """Start the viewer's window; it stays when the mission is over, and nobody minds when it is closed."""
-    _start([*rerun_command(), "--hide-welcome-screen", server_url], server_url)
+# A window has a server of its own.
+_WINDOW = ("--hide-welcome-screen", "--bind", LOOPBACK, "--port", "auto")
+
+
+def run_window(*sources: str) -> int:
+    """Show recordings in the viewer's window until it is closed. Returns its exit code; there may be no screen."""
+    process = _start([*rerun_command(), *_WINDOW, *sources], sources)
+    return 1 if process is None else process.wait()
+
+
+def open_window(*sources: str) -> None:
+    """Start the viewer's window on a live server; it stays after the mission, and nobody minds when it is closed.
+
+    Without a screen there is none: that is told, and no more.
+    """
+    process = _start([*rerun_command(), *_WINDOW, *sources], sources)
+    if process is None:
+        return
+    try:
+        code = process.wait(timeout=_OPENED_S)
+    except subprocess.TimeoutExpired:
+        return
+    _log.warning("no viewer: it ended at once with %d (is there a screen?); to watch: %s", code, ", ".join(sources))
 
 
 # A shell that ends its command when its input ends, which is when whoever holds the other end does: by kill -9, too.
@@ -26,7 +48,7 @@ _LEASH = ("/bin/sh", "-c", '"$@" & read _; kill $!', "leash")
 
 
 class WebPage:
-    """A web server with the viewer's page, which reads the recording from `server_url`, until it is closed.
+    """A web server with the viewer's page, which shows recordings or reads from a live server, until it is closed.
 
     It ends with this process, whatever ends that.
 
@@ -34,13 +56,20 @@ class WebPage:
         url: what to open in a browser, as often as one likes.
     """
 
-    def __init__(self, server_url: str) -> None:
-        port = free_port()
-        self.url = f"http://{LOOPBACK}:{port}/?url={quote(server_url, safe='')}"
-        serve = ["--serve-web", "--bind", LOOPBACK, "--web-viewer-port", str(port)]
+    def __init__(self, *sources: str) -> None:
+        port, data_port = free_port(), free_port()
+        # A live server is read by the page itself, files are passed on to it.
+        data_url = sources[0] if "://" in sources[0] else f"rerun+http://{LOOPBACK}:{data_port}/proxy"
+        self.url = f"http://{LOOPBACK}:{port}/?url={quote(data_url, safe='')}"
+        serve = ["--serve-web", "--bind", LOOPBACK, "--port", str(data_port), "--web-viewer-port", str(port)]
         # Which browser to open is the user's choice: rerun would open one by itself.
-        command = [*_LEASH, *rerun_command(), server_url, *serve]
-        self._process = _start(command, server_url, stdin=subprocess.PIPE, BROWSER="true")
+        command = [*_LEASH, *rerun_command(), *sources, *serve]
+        self._process = _start(command, sources, stdin=subprocess.PIPE, BROWSER="true")
+
+    def wait(self) -> None:
+        """Until the server ends, which it does not by itself."""
+        if self._process is not None:
+            self._process.wait()
 
     def close(self) -> None:
         """Stop serving; pages that are open keep what they have loaded."""
@@ -63,7 +92,7 @@ def free_port() -> int:
 
 
 def _start(
-    command: list[str], server_url: str, *, stdin: int = subprocess.DEVNULL, **environment: str
+    command: list[str], sources: Sequence[str], *, stdin: int = subprocess.DEVNULL, **environment: str
 ) -> subprocess.Popen[bytes] | None:
     quiet = subprocess.DEVNULL
     try:
@@ -76,5 +105,5 @@ def _start(
             start_new_session=True,
         )
     except OSError as error:
-        _log.warning("no live viewer: %s; the recording goes on, open %s to watch", error, server_url)
+        _log.warning("no viewer: %s; to watch: %s", error, ", ".join(sources))
         return None

@@ -19,6 +19,7 @@ from missions.review.moment import print_moment
 from missions.review.options import ReviewOptions
 from missions.review.page import page_of
 from missions.review.reading import Review, read
+from missions.review.showing import show
 from missions.review.summary import print_summary
 
 DONE, FAILED = 0, 1
@@ -32,8 +33,7 @@ def review(options: ReviewOptions) -> int:
     Raises:
         InputError: a recording cannot be read, a question makes no sense, or a file cannot be written.
     """
-    # Where nobody looks lines are not folded: they are for other programs.
-    # Beside JSON for another program, words go where people look.
+    # Where nobody looks lines are not folded: they are for other programs. Beside JSON for one, words go to people.
     looked_at = sys.stderr if options.json else sys.stdout
     width = None if looked_at.isatty() else _WIDE
     console = Console(highlight=False, emoji=False, markup=False, width=width, stderr=options.json)
@@ -43,6 +43,8 @@ def review(options: ReviewOptions) -> int:
         _compare(reviews[0], reviews[1], options, console)
     else:
         _tell(reviews[0], options, console)
+    if options.view or options.web:
+        show(options.recordings, console, window=options.view)
     for one, verdict in verdicts:
         whose = f"{one.playback.path.name}: " if len(reviews) > 1 else ""
         console.print(f"{whose}{verdict}", style="" if verdict.holds else "bold red", markup=False)

@@ -17,6 +17,7 @@ EXAMPLES = """examples:
   swarm review out/quickstart.rrd --at 2:31 --agent 4      what it knew, wanted and did
   swarm review out/quickstart.rrd --report out/flight.html  one page with pictures, for a colleague
   swarm review out/quickstart.rrd --plot out/flight.png
+  swarm review out/quickstart.rrd --view                   look at it; --web: in a browser
   swarm review out/first.rrd out/second.rrd                what differs between two missions
   swarm review out/quickstart.rrd --check 'coverage > .9 and events.target_loss < 20'
   swarm review out/quickstart.rrd --json | jq .coverage
@@ -34,6 +35,7 @@ class ReviewOptions:
         json: print the report. events: print the timeline: None, "main" or "all".
         at_s, agent: print what that agent was at at that time (mission clock); both or neither.
         plot, page: the picture and the HTML page to write. checks: conditions that must hold.
+        view, web: show the recordings in the viewer's window, or serve its page until Ctrl-C.
     """
 
     recordings: Sequence[Path]
@@ -44,6 +46,8 @@ class ReviewOptions:
     plot: Path | None = None
     page: Path | None = None
     checks: Sequence[str] = ()
+    view: bool = False
+    web: bool = False
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -63,6 +67,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--plot", type=Path, metavar="F.png", help="coverage, activities and distances over time, as .png or .svg"
     )
     parser.add_argument("--report", type=Path, metavar="F.html", help="one page with all of it and its pictures")
+    parser.add_argument("--view", action="store_true", help="open it in the viewer's window")
+    parser.add_argument("--web", action="store_true", help="serve it to browsers on this computer, until Ctrl-C")
     parser.add_argument(
         "--check",
         action="append",
@@ -84,6 +90,8 @@ def review_options(options: argparse.Namespace) -> ReviewOptions:
     count = len(options.recordings)
     if count > _MOST:
         raise InputError(f"F.rrd: got {count} recordings; allowed: one, or two to compare")
+    if options.view and options.web:
+        raise InputError("--view: got --web too; allowed: one of them")
     one_only = {"--events": options.events, "--at": options.at, "--report": options.report, "--json": options.json}
     for name, value in one_only.items():
         if count == _MOST and value:
@@ -97,6 +105,8 @@ def review_options(options: argparse.Namespace) -> ReviewOptions:
         plot=options.plot,
         page=options.report,
         checks=tuple(options.check),
+        view=options.view,
+        web=options.web,
     )
 
 

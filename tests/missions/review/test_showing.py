@@ -4,8 +4,13 @@ from __future__ import annotations
 
 import json
 import re
+import signal
+import subprocess
+import sys
+import time
 from html.parser import HTMLParser
 from pathlib import Path
+from urllib.request import urlopen
 from xml.etree import ElementTree
 
 import pytest
@@ -162,3 +167,36 @@ def test_bad_questions_say_what_is_allowed(
 def test_clock_times(time_s: float, words: str) -> None:
     assert clock(time_s) == words
     assert clock_s(words) == pytest.approx(time_s, abs=0.05)
+
+
+def test_without_a_screen_there_is_no_window(
+    flown: Flown, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in ("DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"):
+        monkeypatch.delenv(name, raising=False)
+    assert main(["review", str(flown.recording), "--view"]) == 2
+    assert "--view: got no window" in capsys.readouterr().err
+    assert main(["review", str(flown.recording), "--view", "--web"]) == 2
+
+
+def test_a_recording_is_served_to_browsers_until_ctrl_c(flown: Flown) -> None:
+    command = [sys.executable, "-u", "-m", "missions.cli", "review", str(flown.recording), "--web"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        url = next(line.split()[-1] for line in process.stdout if line.startswith("Look at it in a browser: "))
+        assert url.startswith("http://127.0.0.1:")
+        until = time.monotonic() + 20.0
+        while not (answers := _answers(url)) and time.monotonic() < until:
+            time.sleep(0.05)
+        assert answers
+        process.send_signal(signal.SIGINT)
+        assert process.wait(timeout=20.0) == 0
+    assert not _answers(url)
+
+
+def _answers(url: str) -> bool:
+    try:
+        with urlopen(url, timeout=5.0) as answer:
+            return b"Rerun" in answer.read()
+    except OSError:
+        return False
