@@ -16,6 +16,7 @@ from comms.session import open_local_bus
 from missions.checkout import commit
 from missions.compose import cos_half_opening
 from missions.faults.costs import Costs
+from missions.faults.schedule import spells_of
 from missions.flight import Flight
 from missions.ground_link import open_ground_link
 from missions.links import open_transports
@@ -181,6 +182,7 @@ def recorder_of(mission: Mission, n_targets: int, options: LaunchOptions) -> Rec
         home=mission.home.place,
         ceiling_m=max(mission.agents.altitude.of_agent(uid) for uid in range(mission.agents.count)),
         coverage_floor=coverage_floor(mission),
+        faults=spells_of(mission.faults, mission.tick_s),
     )
     record = None if options.record is None else options.record.resolve()
     return Recorder(record, scene=scene, view=options.view, web=options.web, lossless=isinf(options.speed))

@@ -7,6 +7,7 @@ from typing import Any
 import rerun as rr
 import rerun.blueprint as rrb
 
+from missions.recording import hazards
 from missions.recording.event_view import event_log
 from missions.recording.eye import fitting_eye
 from missions.recording.minds_view import in_tens, knowledge
@@ -40,7 +41,7 @@ def _mission(scene: Scene) -> rrb.Container:
             rrb.Horizontal(_coverage(), _radio(scene), column_shares=[5, 3]),
             row_shares=[5, 2],
         ),
-        rrb.Vertical(_lanes(), event_log("/log", name="Events"), row_shares=[5, 3]),
+        rrb.Vertical(_lanes(scene), event_log("/log", name="Events"), row_shares=[5, 3]),
         column_shares=[3, 2],
         name="Mission",
     )
@@ -101,8 +102,11 @@ def _radio(scene: Scene) -> rrb.View:
     )
 
 
-def _lanes() -> rrb.View:
-    return rrb.StateTimelineView(origin="/agents", contents="/agents/**", name="What each agent does")
+def _lanes(scene: Scene) -> rrb.View:
+    if not scene.faults:
+        return rrb.StateTimelineView(origin="/agents", contents="/agents/**", name="What each agent does")
+    contents, name = ["/agents/**", hazards.LANE], "What each agent does, and what is wrong"
+    return rrb.StateTimelineView(origin="/", contents=contents, name=name)
 
 
 def _telemetry(scene: Scene) -> rrb.Container:

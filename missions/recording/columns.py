@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 import numpy.typing as npt
@@ -29,6 +29,13 @@ class Layer(Protocol):
     """One kind of thing to draw: turns blocks, in order of time, into rows."""
 
     def rows(self, block: Block) -> Iterable[Rows]: ...
+
+
+@runtime_checkable
+class TellsChanges(Protocol):
+    """A layer that records what changes: in a new file it tells all of it anew."""
+
+    def tell_anew(self) -> None: ...
 
 
 def pieces(lines: npt.ArrayLike, colors: Colors | None, counts: Ints) -> rr.ComponentColumnList:

@@ -36,6 +36,10 @@ class Ledger:
         self._scene = scene
         self._last: dict[str, Values] = {}
 
+    def tell_anew(self) -> None:
+        """Tell next what holds, whether it is new or not."""
+        self._last.clear()
+
     def rows(self, block: Block) -> Iterator[Rows]:
         """The changes."""
         yield self._table(PHASE, block, _phase, {"phase": _TEXT, "mission_began_at": _WHOLE})

@@ -36,6 +36,10 @@ class Messages:
         self._named: set[str] = set()
         self._lines: dict[int, dict[str, str]] = {}  # of each agent's page, by kind
 
+    def tell_anew(self) -> None:
+        """Tell next what holds, whether it is new or not."""
+        self._named.clear()
+
     def rows(self, block: Block) -> Iterator[Rows]:
         """The newest message of each kind since the last step, and names for what is told for the first time."""
         for seen in block.observations:

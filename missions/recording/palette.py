@@ -30,6 +30,8 @@ GROUND_FRESH = 0x0F7BFFFF  # seen now
 GRID = 0x4C5664FF
 EDGE = 0x7088B0FF
 LINK = 0x6F7F96FF
+WRONG = _RED  # a fault of the mission is in force
+CALM = 0x5F6B7DFF  # none is
 BROKEN = _RED  # a frame that was lost on its way
 
 COVERAGE_NOW = _GREEN

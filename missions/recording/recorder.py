@@ -13,8 +13,9 @@ from missions.problems import OutputError
 from missions.recording.block import Block
 from missions.recording.blueprint import blueprint
 from missions.recording.charts import Metrics, Telemetry
-from missions.recording.columns import Layer
+from missions.recording.columns import Layer, TellsChanges
 from missions.recording.ground import SeenGround
+from missions.recording.hazards import Hazards
 from missions.recording.ledger import Ledger
 from missions.recording.messages import Messages
 from missions.recording.minds import Minds
@@ -33,10 +34,9 @@ _QUEUED_S = 5.0
 # Mission time from one flush to the next: what a killed process loses, and what a live viewer lags behind.
 _FLUSH_S, _LIVE_FLUSH_S = 1.0, 0.5
 _LAYERS = (
-    SeenGround, Swarm, Targets, Relations, Lanes, EventLog, Metrics, Telemetry, Places, Minds, Messages, Ledger,
+    SeenGround, Swarm, Targets, Relations, Lanes, EventLog, Metrics, Telemetry, Places, Minds, Messages,
+    Hazards, Ledger,
 )  # fmt: skip
-# These tell what changes: a new file begins with all of it told anew.
-_TELLING_CHANGES = (Targets, Lanes, Messages, Ledger)
 _log = logging.getLogger(__name__)
 
 
@@ -53,7 +53,7 @@ class Recorder:
         view: show it in a viewer's window, live. web: serve a page that shows it, live, to browsers on this machine.
         lossless: wait when the recorder is behind, so that the recording is complete and repeats exactly (lockstep);
             else drop the observation and count it (real time).
-        part_s: the mission time that one file holds; None: as long as can be packed in half a gigabyte of memory.
+        part_s: the mission time that one file holds; None: what takes about half a gigabyte of memory.
 
     Attributes:
         dropped: observations that came too fast.
@@ -203,7 +203,9 @@ class Recorder:
         if self._parts is not None and self._parts.is_full(observations[0].tick):
             self._parts.end()
             self._parts.begin()
-            layers[:] = [type(one)(self._scene) if isinstance(one, _TELLING_CHANGES) else one for one in layers]
+            for layer in layers:
+                if isinstance(layer, TellsChanges):
+                    layer.tell_anew()
         block, tapes = Block(self._scene, observations), self._tapes
         for layer in layers:
             for rows in layer.rows(block):

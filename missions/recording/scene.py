@@ -8,6 +8,7 @@ from math import hypot, pi
 
 from comms.arena import Arena
 from comms.frames import GeoPoint
+from missions.faults.schedule import Spell
 
 # Any fixed namespace will do; this one makes equal scenes share one recording id.
 _NAMESPACE = uuid.UUID("6f1d4c58-3c0e-5d3b-9a52-0f3c8f6a7d21")
@@ -26,6 +27,7 @@ class Scene:
         home: where ENU (0, 0, 0) is on the globe.
         ceiling_m: how high agents fly, so that the first view shows all of them.
         coverage_floor: coverage of agents placed at random and standing still, drawn as a dim line; None when unknown.
+        faults: what the mission lets go wrong, in ticks since MISSION began.
     """
 
     mission_name: str
@@ -42,6 +44,7 @@ class Scene:
     half_opening_rad: float = pi
     ceiling_m: float = 0.0
     coverage_floor: float | None = None
+    faults: tuple[Spell, ...] = ()
 
     @property
     def ticks_per_s(self) -> int:

@@ -9,7 +9,7 @@ import rerun as rr
 
 from comms.frames import geo_from_enu
 from comms.status import Activity
-from missions.recording import palette, shapes
+from missions.recording import hazards, palette, shapes
 from missions.recording.columns import on_ground
 from missions.recording.scene import Scene
 from missions.recording.tape import Tape
@@ -165,9 +165,17 @@ def _set_charts(tape: Tape, scene: Scene) -> None:
     )
     for name in scene.agent_names:
         tape.log_static(f"/agents/{name}/mode", lanes)
+    if scene.faults:
+        tape.log_static(hazards.LANE, _hazards(scene))
     for path, style in _chart_styles(scene).items():
         names, colors, widths = zip(*style, strict=True)
         tape.log_static(path, rr.SeriesLines(names=names, colors=np.array(colors, dtype=np.uint32), widths=widths))
+
+
+def _hazards(scene: Scene) -> rr.StateConfiguration:
+    states = hazards.states_of(scene.faults)
+    colors = [palette.CALM if state == hazards.NONE else palette.WRONG for state in states]
+    return rr.StateConfiguration(values=states, labels=states, colors=np.array(colors, dtype=np.uint32))
 
 
 def _chart_styles(scene: Scene) -> dict[str, list[tuple[str, int, float]]]:

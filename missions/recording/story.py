@@ -37,6 +37,10 @@ class Lanes:
         self._scene = scene
         self._last: list[Activity | None] = [None] * scene.n_agents
 
+    def tell_anew(self) -> None:
+        """Tell next what holds, whether it is new or not."""
+        self._last = [None] * self._scene.n_agents
+
     def rows(self, block: Block) -> Iterator[Rows]:
         """The changes."""
         for uid, name in enumerate(self._scene.agent_names):

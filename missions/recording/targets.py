@@ -23,6 +23,10 @@ class Targets:
         self._sizes = Sizes.of(scene)
         self._named: Mask | None = None
 
+    def tell_anew(self) -> None:
+        """Tell next what holds, whether it is new or not."""
+        self._named = None
+
     def rows(self, block: Block) -> Iterator[Rows]:
         """Bodies at every tick, rings less often."""
         yield from self._bodies(block)
