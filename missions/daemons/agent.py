@@ -104,6 +104,7 @@ class _Daemon:
         self._radios = {radio.uid: radio for radio in radios}
         self._mail = Mailbox(self._radios)
         self._questions: queue.Queue[tuple[int, Question]] = queue.Queue(MAX_QUESTIONS)
+        self._fingerprint = fingerprint(mission, options.speed)
         self._greeted_at_s = -inf
         self._gone_at_s: float | None = None
         self._is_closing = False
@@ -170,7 +171,7 @@ class _Daemon:
         if self._gone_at_s is None and now_s - self._greeted_at_s >= HELLO_EVERY_S:
             self._greeted_at_s = now_s
             for seat in self._seats.values():
-                seat.greet(fingerprint(self._mission))
+                seat.greet(self._fingerprint)
 
     def _take(self, seat: Seat, wire: bytes) -> None:
         """One message from the world."""

@@ -22,6 +22,7 @@ from missions.sides.medium import Medium
 
 LOOK_S = 0.2
 FRAME_LOOK_S = 1e-4
+STRANGE = "has another mission, or another --speed, and is not let in: are its file and options the world's?"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -151,8 +152,7 @@ class RemoteCrew:
         if done.tick == HELLO_TICK and done.fingerprint != self._fingerprint:
             if uid not in self._strangers:
                 self._strangers.add(uid)
-                why = "flies another mission, and is not let in: are its file and options the same?"
-                self._tell(uid, Event(Level.ERROR, why))
+                self._tell(uid, Event(Level.ERROR, STRANGE))
             return
         if done.tick > self._tick:
             return  # of a tick that has not begun

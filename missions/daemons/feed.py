@@ -11,7 +11,8 @@ import msgspec
 
 from comms.keys import RECORDER, Keys
 from comms.session import Network
-from missions.daemons.crew import CrewError
+from comms.status import Event, Level
+from missions.daemons.crew import STRANGE, CrewError
 from missions.daemons.wire import OVER, encode
 from missions.observation import Observation
 
@@ -23,7 +24,7 @@ KEPT_EVERY_TICKS = 10
 class Kept(msgspec.Struct, frozen=True):
     """The recorder to the world: ticks up to this one are kept (-1: it is there), in that file; or why it failed.
 
-    closed: the file is whole, but for the ticks that were dropped.
+    closed: the file is whole, but for the ticks that were dropped. fingerprint: of the mission that it was given.
     """
 
     tick: int
@@ -31,23 +32,37 @@ class Kept(msgspec.Struct, frozen=True):
     failure: str = ""
     closed: bool = False
     dropped: int = 0
+    fingerprint: str = ""
 
 
 class Feed:
     """An observer that passes observations on to a recorder, if there is one.
 
     Args:
-        begin: called when it comes, from another thread.
+        fingerprint: of the mission; a recorder of another one gets nothing.
+        begin: called when it comes, from another thread. tell: what becomes of it.
 
     Attributes:
         recording: the recorder's file. failures: why not everything was kept that was to be kept.
     """
 
-    def __init__(self, bus: Network, *, keys: Keys, lockstep: bool, begin: Callable[[], None]) -> None:
+    def __init__(
+        self,
+        bus: Network,
+        *,
+        keys: Keys,
+        lockstep: bool,
+        fingerprint: str,
+        begin: Callable[[], None],
+        tell: Callable[[Event], None],
+    ) -> None:
         self.failures: list[str] = []
         self._put = bus.publisher(keys.truth)
         self._lockstep = lockstep
+        self._fingerprint = fingerprint
         self._begin = begin
+        self._tell = tell
+        self._is_strange = False
         self._kept: Kept | None = None
         self._progress = threading.Condition()
         self._there = False
@@ -108,6 +123,11 @@ class Feed:
         try:
             kept = msgspec.msgpack.decode(payload, type=Kept)
         except (msgspec.DecodeError, UnicodeDecodeError):
+            return
+        if self._kept is None and kept.fingerprint != self._fingerprint:
+            if not self._is_strange:
+                self._is_strange = True
+                self._tell(Event(Level.ERROR, STRANGE))
             return
         with self._progress:
             if self._kept is None:

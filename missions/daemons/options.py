@@ -39,6 +39,6 @@ class DaemonOptions:
         return isinf(self.speed)
 
 
-def fingerprint(mission: Mission) -> str:
-    """The same for two processes if they were given the same mission."""
-    return sha256(mission.model_dump_json().encode()).hexdigest()[:16]
+def fingerprint(mission: Mission, speed: float) -> str:
+    """The same for two processes if they were given the same mission, and the same pace: both must be the world's."""
+    return sha256(f"{mission.model_dump_json()} {speed}".encode()).hexdigest()[:16]

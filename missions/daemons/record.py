@@ -13,7 +13,7 @@ from comms.session import BusError, Network, open_client
 from missions.daemons.ending import Ending
 from missions.daemons.feed import KEPT_EVERY_TICKS, WINDOW_TICKS, Kept
 from missions.daemons.log import Log
-from missions.daemons.options import DaemonOptions
+from missions.daemons.options import DaemonOptions, fingerprint
 from missions.daemons.security import silence, why
 from missions.daemons.wire import OVER, decode_observation
 from missions.launch import DONE, FAILED, STOPPED, recorder_of
@@ -64,6 +64,7 @@ class _Reel:
     ) -> None:
         keys = Keys(mission.name)
         self._recorder = recorder
+        self._fingerprint = fingerprint(mission, daemon.speed)
         self._daemon = daemon
         self._ending = ending
         self._log = log
@@ -107,7 +108,7 @@ class _Reel:
                         hint = silence(self._daemon.credentials)
                         self._log.error(f"no word from the world for {self._daemon.join_s:g} s{hint}")
                         return FAILED
-                    self._tell(Kept(HELLO_TICK, recording=self._path))
+                    self._tell(Kept(HELLO_TICK, recording=self._path, fingerprint=self._fingerprint))
                 continue
             if wire == OVER:
                 return DONE

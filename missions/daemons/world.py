@@ -94,17 +94,25 @@ def _run(
 ) -> int:
     keys, metrics = Keys(mission.name), Metrics(costs=Costs(mission.faults, tick_s=mission.tick_s))
     side, desk = WorldSide(mission, bus), _Desk(bus, keys, ending)
+    ours = fingerprint(mission, daemon.speed)
     crew = RemoteCrew(
         bus,
         keys=keys,
         n_agents=mission.agents.count,
         medium=side.medium,
         patience=_patience(mission, daemon),
-        fingerprint=fingerprint(mission),
+        fingerprint=ours,
         tell=lambda uid, event: log.events([event], who=f"agent-{uid}"),
         stop=desk.is_closing,
     )
-    feed = Feed(bus, keys=keys, lockstep=daemon.lockstep, begin=partial(_explain, side))
+    feed = Feed(
+        bus,
+        keys=keys,
+        lockstep=daemon.lockstep,
+        fingerprint=ours,
+        begin=partial(_explain, side),
+        tell=lambda event: log.events([event], who="recorder"),
+    )
     bus.declare_alive(keys.alive(WORLD))
     known = "" if daemon.credentials is None else f" whose certificates lie in {daemon.credentials.folder}"
     log.info(f"listens on {daemon.endpoint}, and waits for {mission.agents.count} agents{known}")

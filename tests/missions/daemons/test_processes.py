@@ -180,12 +180,16 @@ def test_nobody_waits_for_ever() -> None:
     assert "no sign of agent 0, 1, 2" in world.output
 
 
-def test_an_agent_of_another_mission_is_not_let_in() -> None:
+@pytest.mark.parametrize("change", [("--seed", "7"), ("--speed", "2")], ids=["mission", "pace"])
+def test_who_has_another_mission_or_another_pace_is_not_let_in(change: tuple[str, str], tmp_path: Path) -> None:
+    pytest.importorskip("rerun")
     endpoint = free_endpoint()
     one = ("narrow", "--set", "agents.count=1", "--listen", endpoint, "--join-timeout", "60")
-    other = ("narrow", "--set", "agents.count=1", "--seed", "7", "--connect", endpoint, "--id", "0")
-    with swarm("world", *one) as world, swarm("agent", *other):
-        world.wait_for('who=agent-0 text="flies another mission')
+    other = ("narrow", "--set", "agents.count=1", *change, "--connect", endpoint)
+    recorder = (*other, "--record", str(tmp_path / "no.rrd"))
+    with swarm("world", *one) as world, swarm("agent", *other, "--id", "0"), swarm("record", *recorder):
+        world.wait_for('who=agent-0 text="has another mission, or another --speed')
+        world.wait_for('who=recorder text="has another mission, or another --speed')
 
 
 def test_two_worlds_do_not_share_a_port() -> None:
