@@ -38,6 +38,7 @@ class Place(Enum):
     AIR = "air"  # the router of a mission whose air carries every frame
     FIELD = "field"  # the router of a mission whose agents hear each other through it
     RADIO = "radio"  # an agent's own radio, which its mates reach directly
+    BOARD = "board"  # the router of an agent without a world, on its own computer
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +74,8 @@ def rights(keys: Keys, name: str, place: Place = Place.AIR) -> Rights:
     """What `name` may do there; nothing if it is not a name of a swarm."""
     if place is Place.RADIO:
         return _mates(keys, agents_named(name))
+    if place is Place.BOARD:
+        return _operator(keys) if name == OPERATOR else _detectors(keys, agents_named(name))
     if name == RECORDER:
         return _recorder(keys)
     if name == OPERATOR:
@@ -100,6 +103,15 @@ def _mates(keys: Keys, uids: Sequence[int]) -> Rights:
         (Deed.SAY, [keys.tx(uid) for uid in uids]),
         (Deed.KNOW_LISTENERS, [keys.every_tx]),
         (Deed.HEAR, [keys.every_tx]),
+    )
+
+
+def _detectors(keys: Keys, uids: Sequence[int]) -> Rights:
+    if not uids:
+        return ()
+    return (
+        (Deed.SAY, [keys.sight(uid) for uid in uids]),
+        (Deed.KNOW_LISTENERS, [keys.sight(uid) for uid in uids]),
     )
 
 

@@ -2,6 +2,7 @@
 
     swarm/@v1/<mission>/tx/<uid>             agent -> air: one frame per tick
     swarm/@v1/<mission>/rx/<uid>             air -> that agent alone: what got through, one bundle per tick
+    swarm/@v1/<mission>/sight/<uid>          detector on board -> agent without a world: what is in sight
     swarm/@v1/<mission>/alive/<who>          liveliness token: of an agent (its uid), of the world, of the recorder
     swarm/@v1/<mission>/cmd/<uid>/<verb>     queryable of an agent: what people tell it, with a result
     swarm/@v1/<mission>/@sim/cue/<uid>       world -> that agent alone: a tick begins, and what its sensor sees
@@ -51,6 +52,10 @@ class Keys:
     def rx(self, uid: int) -> str:
         """Where agent `uid` hears the others: its own receiver and nobody else's."""
         return f"{_ROOT}/{self.mission}/rx/{uid}"
+
+    def sight(self, uid: int) -> str:
+        """Where a detector on board tells agent `uid` what is in sight."""
+        return f"{_ROOT}/{self.mission}/sight/{uid}"
 
     def alive(self, who: int | str) -> str:
         """The token that says `who` is there: an agent's uid, WORLD or RECORDER."""

@@ -21,6 +21,7 @@ AGENT = """examples:
   swarm agent quickstart --id 3
   swarm agent quickstart --id 0-4                    five agents in one process
   swarm agent my.yaml --id 0 --connect tcp/10.0.0.5:7447 --keys keys
+  swarm agent field.yaml --id 0 --alone              no world: then swarm resume, on the same computer (docs/field.md)
 
 The mission, what changes it, and --speed must be the world's. Ends when the world says that the mission is over.
 SIGTERM: fly home, land, disarm, exit 0; a second one: at once. If the world goes, or its link, the agent flies home by
@@ -78,6 +79,8 @@ def agent_options(parser: Parser) -> Parser:
     """Add what `swarm agent` has."""
     add_speed(parser)
     parser.add_argument("--id", required=True, metavar="N", help="its number from 0, or several: 0-4")
+    about = f"without a world: listen there for people and detectors ({ENDPOINT}), in UTC, from swarm resume on"
+    parser.add_argument("--alone", nargs="?", const=ENDPOINT, metavar="ENDPOINT", help=about)
     _add_insecure(parser)
     return _add_daemon(parser, "--connect", "where the world listens")
 

@@ -54,7 +54,10 @@ def issue(folder: Path, *, n_agents: int, per_process: int, force: bool) -> list
         for file in present:
             file.unlink()
         radio.mkdir(mode=0o700, exist_ok=True)
-        for path, content in (*_files(folder, names, _end_of), *_files(radio, agents, lambda name: _BOTH_ENDS)):
+        for path, content in (
+            *_files(folder, names, _end_of),
+            *_files(radio, [OPERATOR, *agents], lambda name: _BOTH_ENDS),
+        ):
             _write(path, content)
     except OSError as error:
         raise InputError(f"{folder}: cannot be written ({error})") from error

@@ -39,9 +39,39 @@ def world(mission: Mission, options: argparse.Namespace) -> int:
 def agent(mission: Mission, options: argparse.Namespace) -> int:
     """Run some of a mission's agents."""
     uids = uids_of(mission, options.id)
+    if options.alone is not None:
+        return _alone(mission, uids, options)
     from missions.daemons.agent import agent as run
 
     daemon = _daemon(options, _speed(mission, options.speed), agents_name(uids))
+    check_radio(mission, uids, daemon.credentials, insecure=options.insecure)
+    return run(mission, uids, daemon)
+
+
+def _alone(mission: Mission, uids: Sequence[int], options: argparse.Namespace) -> int:
+    """Run them without a world."""
+    from missions.daemons.alone import alone as run
+
+    if mission.radio.mode != "field":
+        raise InputError(f"radio.mode: got {mission.radio.mode}; allowed with --alone: field")
+    if mission.faults:
+        raise InputError("faults: got some; allowed with --alone: none, as nobody injects them")
+    if len(uids) < mission.agents.count and not mission.radio.endpoints:
+        raise InputError(
+            "radio.endpoints: got none; allowed with --alone: one for each agent, or nobody hears the other"
+        )
+    if options.speed not in (None, 1.0):
+        raise InputError("--speed: allowed with --alone: 1, the clock's own")
+    check_listening(options.alone, keys=options.keys, insecure=options.insecure, where="--alone")
+    daemon = DaemonOptions(
+        endpoint=endpoint_of(options.alone, keys=options.keys),
+        speed=1.0,
+        log_level=Level(options.log_level),
+        leash=options.leash,
+        credentials=credentials_of(options.keys, agents_name(uids)),
+    )
+    if daemon.credentials is not None:
+        check_complete(daemon.credentials.of_radio)
     check_radio(mission, uids, daemon.credentials, insecure=options.insecure)
     return run(mission, uids, daemon)
 

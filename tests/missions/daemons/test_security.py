@@ -238,7 +238,7 @@ def test_credentials_are_for_nobody_elses_eyes_and_are_kept(tmp_path: Path, caps
     (folder / "mine.pem").write_text("not of a swarm")
     assert main(["keys", str(folder), "--agents", "2", "--force"]) == 0
     assert Credentials(folder, WORLD).known == ["agent-0", "agent-1", "mine", OPERATOR, RECORDER, WORLD]
-    assert Credentials(folder / "radio", "agent-0").known == ["agent-0", "agent-1"]
+    assert Credentials(folder / "radio", "agent-0").known == ["agent-0", "agent-1", OPERATOR]
     assert (folder / "world.key").read_bytes() != before[folder / "world.key"]
 
 

@@ -1,0 +1,178 @@
+"""`swarm agent --alone`: agents without a world. Nobody tells them the time, or what they see.
+
+The clock is the computer's own, in UTC: all computers of the swarm keep it by GPS or NTP, to well within half a second.
+What is in sight a detector on board tells (`comms.sight`); people begin and end the mission with the fleet's verbs. All
+come in at a place of the agent's own, and nothing flies before `swarm resume`.
+"""
+
+from __future__ import annotations
+
+import queue
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from functools import partial
+from math import ceil
+from time import monotonic, sleep, time
+
+from msgspec import structs
+
+from comms.access import Gate, Place
+from comms.clock import RealTime
+from comms.credentials import agents_name
+from comms.keys import Keys, verb_of
+from comms.session import BusError, Network, Question, open_router
+from comms.sight import Eyes
+from comms.status import Activity
+from missions import compose
+from missions.daemons.airwaves import open_airwaves
+from missions.daemons.ending import Ending
+from missions.daemons.log import Log
+from missions.daemons.options import DaemonOptions
+from missions.daemons.orders import Answer, Orders, Verb, Watch, encode_answer
+from missions.links import open_transports
+from missions.mission import Mission
+from missions.observation import Phase
+from missions.problems import InputError
+from missions.sides.agent import AgentSide, agent_sides
+from missions.sides.exchange import Cue, Done
+from missions.sides.phases import Phases
+from missions.targets import n_targets
+
+DONE, FAILED, STOPPED = 0, 1, 130
+
+LOOK_S = 0.05
+MAX_QUESTIONS = 100
+WAITING = "waits on the ground for resume"
+
+
+def alone(mission: Mission, uids: Sequence[int], options: DaemonOptions) -> int:
+    """Run these agents until their mission is over. Returns the exit code.
+
+    Raises:
+        InputError: it cannot listen there, or a link to a vehicle cannot be opened.
+    """
+    log, keys = Log(agents_name(uids), least=options.log_level), Keys(mission.name)
+    ending, own = Ending(log.info), options.credentials
+    gate = None if own is None else Gate(own.of_radio, keys, tuple(own.of_radio.known), Place.BOARD)
+    with ending.listening(leash=options.leash), open_transports(mission, uids) as transports:
+        try:
+            with (
+                open_router(options.endpoint, lossless=False, gate=gate) as board,
+                open_airwaves(mission, uids, options, board) as airwaves,
+            ):
+                count = n_targets(mission)
+                radios = compose.radios(mission, airwaves, uids, count)
+                eyes = {uid: Eyes(board, keys=keys, uid=uid, n_targets=count) for uid in uids}
+                desk = _Desk(board, keys, uids, ending)
+                log.info(f"listens on {options.endpoint}, and {WAITING}")
+                if not desk.await_begin():
+                    return STOPPED if ending.interrupted else DONE
+                tick = ceil(time() / mission.tick_s)
+                sides = agent_sides(mission, radios, n_targets=count, transports=transports, started_tick=tick)
+                code = _fly(mission, sides, eyes, desk, tick, log=log)
+                return STOPPED if ending.interrupted else code
+        except BusError as error:
+            raise InputError(f"--alone: {error}") from error
+        except KeyboardInterrupt:
+            log.error("ended at once, in the air or not")
+    return STOPPED if ending.interrupted else FAILED
+
+
+def _fly(
+    mission: Mission, sides: Sequence[AgentSide], eyes: Mapping[int, Eyes], desk: _Desk, first: int, *, log: Log
+) -> int:
+    """Tick from `first` on, counted in UTC, until everybody has landed; the exit code."""
+    tick_s = mission.tick_s
+    phases, pace = Phases(tick_s=tick_s, duration_s=mission.duration_s), RealTime(tick_s=tick_s, speed=1.0)
+    sleep(max(0.0, first * tick_s - time()))  # all computers begin their ticks at the same moments
+    ahead = 0
+    while phases.now is not Phase.DONE:
+        late_s, began_s = pace.begin(ahead), monotonic()
+        log.time_s = (first + ahead) * tick_s
+        log.events(phases.announcement(ahead), who="mission")
+        cue = Cue(
+            tick=first + ahead,
+            mission_tick=phases.mission_tick(ahead),
+            come_home=phases.now is Phase.RETURN,
+            frames=None,
+            late_s=late_s,
+        )
+        dones = [
+            side.tick(desk.amend(side.uid, structs.replace(cue, sightings=eyes[side.uid].see(log.time_s))))
+            for side in sides
+        ]
+        for done in dones:
+            desk.see(done, time_s=log.time_s, late_s=late_s, busy_s=monotonic() - began_s)
+            log.events(done.status.events, who=agents_name([done.status.uid]))
+        desk.answer()
+        ahead += 1
+        phases.turn(ahead, dones, stop=desk.is_closing)
+    return DONE if phases.complete or desk.has_called_home else FAILED
+
+
+class _Desk:
+    """Where people come: what they told each agent, and how it is.
+
+    Attributes:
+        begun: somebody has said so.
+    """
+
+    def __init__(self, bus: Network, keys: Keys, uids: Sequence[int], ending: Ending) -> None:
+        self.begun = False
+        self._ending = ending
+        self._orders = {uid: Orders() for uid in uids}
+        self._watches = {uid: Watch() for uid in uids}
+        self._last: dict[int, Done] = {}
+        self._time_s = 0.0
+        self._questions: queue.Queue[tuple[int, Question]] = queue.Queue(MAX_QUESTIONS)
+        for uid in uids:
+            bus.declare_alive(keys.alive(uid))
+            bus.answer(keys.every_command(uid), partial(self._ask, uid))
+
+    @property
+    def is_closing(self) -> bool:
+        """Whether the process is to end."""
+        return self._ending.asked
+
+    @property
+    def has_called_home(self) -> bool:
+        """Whether people have ended everybody's mission."""
+        return self._ending.asked or all(orders.come_home for orders in self._orders.values())
+
+    def await_begin(self) -> bool:
+        """Wait for people to let the mission begin; False if they end it instead."""
+        while not (self.begun or self.has_called_home):
+            self.answer()
+            sleep(LOOK_S)
+        return not self.has_called_home
+
+    def amend(self, uid: int, cue: Cue) -> Cue:
+        """The cue as it is under the orders that stand."""
+        return self._orders[uid].amend(cue)
+
+    def see(self, done: Done, *, time_s: float, late_s: float, busy_s: float) -> None:
+        """An agent has done its tick."""
+        self._last[done.status.uid], self._time_s = done, time_s
+        self._watches[done.status.uid].see(done, time_s=time_s, late_s=late_s, busy_s=busy_s)
+
+    def answer(self) -> None:
+        """What people have asked and told since the last time."""
+        while not self._questions.empty():
+            uid, question = self._questions.get_nowait()
+            obeyed, text = self._obey(uid, verb_of(question.key))
+            last = self._last.get(uid)
+            report = None if last is None else self._watches[uid].report(last, time_s=self._time_s)
+            question.answer(encode_answer(Answer(obeyed=obeyed, text=text, report=report)))
+
+    def _obey(self, uid: int, word: str) -> tuple[bool, str]:
+        if self.begun or word == Verb.STOP:
+            last = self._last.get(uid)
+            return self._orders[uid].take(word, Activity.PREPARING if last is None else last.status.activity)
+        if word == Verb.RESUME:
+            self.begun = True
+            return True, "begins"
+        return word == Verb.STATUS, WAITING
+
+    def _ask(self, uid: int, question: Question) -> None:
+        with suppress(queue.Full):  # whoever asks so often gets no answer, and asks again
+            self._questions.put_nowait((uid, question))
