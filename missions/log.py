@@ -25,7 +25,7 @@ class EventLog:
         for status in observation.statuses:
             for event in status.events:
                 if event.level is not Level.INFO or status.uid in off_duty | self._off_duty:
-                    self._print(observation.time_s, f"agent {status.uid}", event.level, event.text)
+                    self._print(observation.time_s, f"A{status.uid}", event.level, event.text)
         self._off_duty = off_duty
 
     def _print(self, time_s: float, who: str, level: Level, text: str) -> None:

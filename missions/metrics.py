@@ -136,7 +136,7 @@ class Metrics:
     def _met(self, time_s: float, low: int, high: int) -> None:
         if (low, high) not in self._close:
             self._close.add((low, high))
-            self.fault(time_s, high, f"came within {CLOSE_M:g} m of agent {low}")
+            self.fault(time_s, high, f"came within {CLOSE_M:g} m of A{low}")
 
 
 def _on_grid(place_m: Vec3) -> Vec3:

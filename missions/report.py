@@ -190,7 +190,7 @@ def _lines(report: Report) -> Mapping[str, str]:
     if report["recording"]:
         lines["recording"] = report["recording"]
     for fault in report["faults"][:10]:
-        who = "mission" if fault["agent"] is None else f"agent {fault['agent']}"
+        who = "mission" if fault["agent"] is None else f"A{fault['agent']}"
         lines[f"fault {fault['time_s']:.1f} s, {who}"] = fault["what"]
     return lines | _injected(report["injected"])
 
@@ -201,7 +201,7 @@ def _injected(faults: Sequence[Mapping[str, Any]]) -> dict[str, str]:
     for fault in faults:
         seen = ", ".join(f"{_percent(share)} {when}" for when, share in fault["coverage"].items())
         after_s = fault["noticed_after_s"]
-        noticed = "not noticed" if after_s is None else f"noticed after {after_s:.1f} s by agent {fault['noticed_by']}"
+        noticed = "not noticed" if after_s is None else f"noticed after {after_s:.1f} s by A{fault['noticed_by']}"
         what = f"{fault['what']}, {fault['whom']}"
         lines[f"at {fault['at_s']:g} s {what}"] = f"{noticed}; coverage {seen}"
     return lines

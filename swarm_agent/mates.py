@@ -2,7 +2,7 @@
 
     mates = Mates(range_m=20.0, ttl_s=0.5)
     mates.hear(now_s, position_m, inbox)   # once a tick, while it plays
-    mates.take_events()  # "no word from agent 3 for 1 s ..."
+    mates.take_events()  # "no word from A3 for 1 s ..."
 
 Who flies out of range is silent, too; that is no news. The rules of the algorithm do not ask: a silent mate's claims
 end with their leases. This is for people, and for the report.
@@ -24,7 +24,7 @@ LOSSY, WELL = 0.2, 0.1  # shares of frames that are lost: from when on it is tol
 LATE, PROMPT = 0.5, 0.4  # ages of frames as they arrive, as shares of their time to live: likewise
 ENOUGH = 20.0  # frames to judge by
 
-SILENCE = "no word from agent"
+SILENCE = "no word from"
 RECEPTION = "reception is poor"
 
 
@@ -53,7 +53,7 @@ class Mates:
             self._last[frame.src] = (now_s, frame)
             if frame.src in self.missing:
                 self.missing.remove(frame.src)
-                self._say(Level.INFO, f"hears agent {frame.src} again")
+                self._say(Level.INFO, f"hears A{frame.src} again")
         if len(self._last) > len(inbox):
             self._look_for_silent(now_s, position_m)
         self._judge()
@@ -86,7 +86,7 @@ class Mates:
             east, north, _ = frame.velocity_m_s
             if hypot(x + silent_s * east - position_m[0], y + silent_s * north - position_m[1]) < self._near_m:
                 self.missing.add(uid)
-                self._say(Level.WARNING, f"{SILENCE} {uid} for {SILENT_S:g} s, though it was near")
+                self._say(Level.WARNING, f"{SILENCE} A{uid} for {SILENT_S:g} s, though it was near")
         # Who went away unnoticed may come back anywhere: it is nobody's loss.
         for uid in [uid for uid, (at_s, _) in self._last.items() if now_s - at_s > SILENT_S]:
             del self._last[uid]

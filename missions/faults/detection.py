@@ -13,7 +13,7 @@ from missions.mission.faults import AnyFault, Partition
 from missions.observation import Observation
 from swarm_agent.mates import RECEPTION, SILENCE
 
-_SILENT = re.compile(rf"{SILENCE} (\d+)\b")
+_SILENT = re.compile(rf"{SILENCE} A(\d+)\b")
 _OF_TARGETS = re.compile(r"\bT\d+\b")
 
 # Whether what `speaker` says tells of the fault.

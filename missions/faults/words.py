@@ -10,7 +10,7 @@ ENDLESS = "to the end"
 
 
 def words(fault: AnyFault) -> str:
-    """ "kill: agent 3, for 20 s", "loss of 30%: all agents, to the end", "reboot: agent 2"."""
+    """ "kill: A3, for 20 s", "loss of 30%: all agents, to the end", "reboot: A2"."""
     span = lasting(fault)
     told = f"{fault.what}: {whom(fault)}"
     return f"{told}, {span if span == ENDLESS else f'for {span} s'}" if span else told
@@ -19,10 +19,10 @@ def words(fault: AnyFault) -> str:
 def whom(fault: AnyFault) -> str:
     """Which agents it is about; groups that do not hear each other are apart."""
     if isinstance(fault, Partition):
-        return " | ".join(_numbers(group) for group in fault.groups)
+        return " | ".join(map(_names, fault.groups))
     if fault.agents is None:
         return "all agents"
-    return f"agent{'s' if len(fault.agents) > 1 else ''} {_numbers(fault.agents)}"
+    return _names(fault.agents)
 
 
 def lasting(fault: AnyFault) -> str:
@@ -32,5 +32,16 @@ def lasting(fault: AnyFault) -> str:
     return ENDLESS if fault.for_s is None else f"{fault.for_s:g}"
 
 
-def _numbers(uids: Sequence[int]) -> str:
-    return ", ".join(map(str, uids))
+def _names(uids: Sequence[int]) -> str:
+    """A1, A6; several in a row as A0-A4."""
+    runs: list[list[int]] = []
+    for uid in sorted(uids):
+        if runs and runs[-1][-1] == uid - 1:
+            runs[-1].append(uid)
+        else:
+            runs.append([uid])
+    return ", ".join(_run(run) for run in runs)
+
+
+def _run(run: Sequence[int]) -> str:
+    return f"A{run[0]}-A{run[-1]}" if len(run) > 2 else ", ".join(f"A{uid}" for uid in run)

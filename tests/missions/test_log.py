@@ -29,7 +29,7 @@ def test_everything_off_duty_and_what_matters_on_duty() -> None:
     log.observe(observation(3.0, Activity.FOLLOW, WORDS))
     assert out.getvalue().splitlines() == [
         "    1.0 s  mission: the mission begins",
-        f"    1.0 s  agent 3: {'x' * 60}",
-        "    2.0 s  agent 3: the link is back",
-        "    3.0 s  agent 3: [red] :smile: lost",
+        f"    1.0 s  A3: {'x' * 60}",
+        "    2.0 s  A3: the link is back",
+        "    3.0 s  A3: [red] :smile: lost",
     ]

@@ -114,6 +114,4 @@ def test_two_drones_that_come_too_close_are_a_fault_once() -> None:
                 targets=(),
             )
         )
-    assert [(fault.time_s, fault.agent, fault.what) for fault in metrics.faults] == [
-        (0.5, 1, "came within 1 m of agent 0")
-    ]
+    assert [(fault.time_s, fault.agent, fault.what) for fault in metrics.faults] == [(0.5, 1, "came within 1 m of A0")]

@@ -32,7 +32,7 @@ def test_all_is_well_without_a_word() -> None:
 
 def test_a_mate_that_falls_silent_nearby_is_missed_after_a_second_and_welcomed_back() -> None:
     mates, said = flown(range(200), lambda tick: [] if 50 < tick < 120 else [frame(tick)])
-    assert said == {61: "no word from agent 3 for 1 s, though it was near", 120: "hears agent 3 again"}
+    assert said == {61: "no word from A3 for 1 s, though it was near", 120: "hears A3 again"}
     assert mates.missing == set()
 
 

@@ -14,7 +14,7 @@ from missions.mission import Mission
 from missions.mission.faults import KINDS
 from missions.observation import Observation, Phase
 
-SILENT = "no word from agent {} for 1 s, though it was near"
+SILENT = "no word from A{} for 1 s, though it was near"
 HALVES = [[0, 1], [2, 3, 4]]
 POOR = "reception is poor: 30% of mates' frames lost, 0.1 s old"
 

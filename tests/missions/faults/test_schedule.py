@@ -49,7 +49,7 @@ def test_a_fault_holds_from_the_first_tick_at_its_time_to_the_first_at_its_end(
     found = schedule({"kind": "freeze", "at_s": at_s, "for_s": for_s, "agents": [4]}, tick_s=tick_s)
     assert ticks(found, "frozen") == {4: list(range(first, end))}
     told = {tick: [(event.level, event.text) for event in found.news(tick)] for tick in range(100) if found.news(tick)}
-    words = f"freeze: agent 4, for {for_s:g} s"
+    words = f"freeze: A4, for {for_s:g} s"
     assert told == {first: [(Level.WARNING, f"fault: {words}")], end: [(Level.INFO, f"over: {words}")]}
 
 

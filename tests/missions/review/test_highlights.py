@@ -55,14 +55,14 @@ def test_the_longest_losses_are_told_in_order_of_time(flown: Flown) -> None:
 
 
 def test_a_fault_is_told_only_if_it_cost_something(flown: Flown) -> None:
-    fault = {"what": "kill", "whom": "agent 1", "at_s": 25.0, "until_s": 35.0}
+    fault = {"what": "kill", "whom": "A1", "at_s": 25.0, "until_s": 35.0}
     cost = {**fault, "coverage": {"before": 0.97, "during": 0.67, "after": None}}
     free = {**fault, "coverage": {"before": 0.97, "during": 0.95, "after": 0.99}}
     report = {**flown.review.report, "injected": [free, cost]}
     (only,) = highlights(replace(_quiet(flown), report=report, began_s=14.0))
     assert told(only) == (
         "0:39.0",
-        "kill, agent 1: 97.0 % of the targets were seen before, 67.0 % meanwhile",
+        "kill, A1: 97.0 % of the targets were seen before, 67.0 % meanwhile",
     )
 
 
