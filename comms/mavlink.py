@@ -180,6 +180,23 @@ class LogDecoder:
         return None if message.get_msgId() < 0 else message
 
 
+# The modes of what ArduPilot drives, by MAV_TYPE: an enum of its dialect, and what each of its names begins with.
+_MODES_OF_TYPE = {
+    **dict.fromkeys((2, 3, 4, 13, 14, 15, 29, 35), "COPTER_MODE"),
+    **dict.fromkeys((1, 19, 20, 21, 22, 23, 24, 25), "PLANE_MODE"),
+    **dict.fromkeys((10, 11), "ROVER_MODE"),
+    12: "SUB_MODE",
+    5: "TRACKER_MODE",
+}
+
+
+def ardupilot_mode(vehicle_type: int, custom_mode: int) -> str | None:
+    """The name of an ArduPilot's mode, by HEARTBEAT's `type` and `custom_mode`; None for one that nobody knows."""
+    kind = _MODES_OF_TYPE.get(vehicle_type)
+    known = dialect.enums[kind].get(custom_mode) if kind is not None else None
+    return None if known is None or known.name.endswith("ENUM_END") else known.name.removeprefix(f"{kind}_")
+
+
 def numbers_of(message: Message) -> dict[str, float]:
     """A message's numbers by the names of their fields, arrays flattened (`q[0]`); texts are left out."""
     numbers: dict[str, float] = {}

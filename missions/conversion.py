@@ -2,43 +2,51 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from mmap import ACCESS_READ, mmap
 from pathlib import Path
 
 from rich.console import Console
 
-from missions.flightlog import Entry, read_log
+from missions.flightlog import FlightLog
 from missions.problems import InputError, OutputError
-from missions.recording.logbook import record_log
+from missions.recording.imported import record_logs
 from missions.review.words import clock
 
 
-def import_logs(logs: Sequence[Path], to: Path) -> None:
+def import_logs(paths: Sequence[Path], to: Path) -> None:
     """Record one or several telemetry logs, of one or many vehicles, into one recording.
 
     Raises:
         InputError: a log cannot be read or has no MAVLink in it, or the recording cannot be written.
     """
     console = Console(highlight=False, markup=False, soft_wrap=True)
-    entries: list[Entry] = []
-    for path in logs:
-        entries += _entries(path, console)
-    try:
-        vehicles = record_log(entries, to, name=logs[0].stem if len(logs) == 1 else f"{len(logs)} logs")
-    except OutputError as error:
-        raise InputError(f"--to: got {to}; allowed: a file that can be written ({error})") from error
-    times_s = [entry.unix_s for entry in entries]
-    who = ", ".join(vehicles) or "no vehicle"
-    console.print(f"{to}: {who}, {len(entries)} messages in {clock(max(times_s) - min(times_s))}")
+    with ExitStack() as stack:
+        logs = [stack.enter_context(_opened(path)) for path in paths]
+        try:
+            imported = record_logs(logs, to, name=paths[0].stem if len(paths) == 1 else f"{len(paths)} logs")
+        except OutputError as error:
+            raise InputError(f"--to: got {to}; allowed: a file that can be written ({error})") from error
+        for path, log in zip(paths, logs, strict=True):
+            if log.skipped_bytes:
+                console.print(f"{path}: {log.skipped_bytes} bytes are no message, and left out", style="yellow")
+    who = ", ".join(imported.vehicles) or "no vehicle"
+    console.print(f"{to}: {who}, {sum(log.messages for log in logs)} messages in {clock(imported.duration_s)}")
 
 
-def _entries(path: Path, console: Console) -> Sequence[Entry]:
+@contextmanager
+def _opened(path: Path) -> Iterator[FlightLog]:
+    """A log with a message in it. It is read from the file as it is asked for."""
     try:
-        log = read_log(path.read_bytes())
+        with path.open("rb") as file:
+            data = mmap(file.fileno(), 0, access=ACCESS_READ) if path.stat().st_size else b""
     except OSError as error:
         raise InputError(f"{path}: got no file that can be read ({error.strerror}); allowed: a .tlog") from error
-    if not log.entries:
+    if next(iter(FlightLog(data)), None) is None:
         raise InputError(f"{path}: got no MAVLink; allowed: a .tlog, as MAVProxy, QGroundControl or --tlog keep it")
-    if log.skipped_bytes:
-        console.print(f"{path}: {log.skipped_bytes} bytes are no message, and left out", style="yellow")
-    return log.entries
+    try:
+        yield FlightLog(data)
+    finally:
+        if isinstance(data, mmap):
+            data.close()

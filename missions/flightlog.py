@@ -7,8 +7,9 @@ stepped over and counted.
 from __future__ import annotations
 
 import struct
-from collections.abc import Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
+from mmap import mmap
 
 from comms.framing import MAX_FRAME_BYTES, frame_bytes
 from comms.framing import START as START_2
@@ -28,31 +29,36 @@ class Entry:
     message: Message
 
 
-@dataclass(frozen=True, slots=True)
 class FlightLog:
-    """A log's messages in order of the file, and how many bytes of it were none."""
+    """A log's messages in order of the file, one after the other, so that a log may be larger than memory.
 
-    entries: Sequence[Entry]
-    skipped_bytes: int
+    Reading never raises, whatever the bytes are.
+
+    Attributes:
+        messages, skipped_bytes: messages that were read so far, and bytes that were none.
+    """
+
+    def __init__(self, data: bytes | mmap) -> None:
+        self._data = data
+        self._decoder = LogDecoder()
+        self.messages = 0
+        self.skipped_bytes = 0
+
+    def __iter__(self) -> Iterator[Entry]:
+        data, position = self._data, 0
+        while position < len(data):
+            size = _entry_bytes(data, position)
+            message = None if size is None else self._decoder.decoded(data[position + _STAMP.size : position + size])
+            if size is None or message is None:
+                position += 1
+                self.skipped_bytes += 1
+                continue
+            self.messages += 1
+            yield Entry(_STAMP.unpack_from(data, position)[0] / 1e6, message)
+            position += size
 
 
-def read_log(data: bytes) -> FlightLog:
-    """All that can be read of a log; never raises, whatever the bytes are."""
-    decoder = LogDecoder()
-    entries: list[Entry] = []
-    position = skipped = 0
-    while position < len(data):
-        size = _entry_bytes(data, position)
-        message = None if size is None else decoder.decoded(data[position + _STAMP.size : position + size])
-        if size is None or message is None:
-            position, skipped = position + 1, skipped + 1
-            continue
-        entries.append(Entry(_STAMP.unpack_from(data, position)[0] / 1e6, message))
-        position += size
-    return FlightLog(entries, skipped)
-
-
-def _entry_bytes(data: bytes, position: int) -> int | None:
+def _entry_bytes(data: bytes | mmap, position: int) -> int | None:
     """How long the entry is that begins here; None if none can."""
     start = position + _STAMP.size
     if start + _FRAME_1_BYTES > len(data) or data[start] not in (_START_1, START_2):

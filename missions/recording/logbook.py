@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass
 from math import hypot, nan
-from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
@@ -14,19 +13,18 @@ import rerun as rr
 import rerun.blueprint as rrb
 
 from comms.frames import GeoPoint, enu_from_geo
-from comms.mavlink import Message, numbers_of
+from comms.mavlink import Message, ardupilot_mode, numbers_of
 from missions.flightlog import Entry
-from missions.problems import OutputError
 from missions.recording import palette
 from missions.recording.event_view import event_log
-from missions.recording.optimize import optimize
-from missions.recording.tape import APPLICATION_ID, TIME_LINE
+from missions.recording.tape import TIME_LINE
+from missions.recording.texts import Said, Texts
 from swarm_agent.autopilot.flavors import ARDUPILOT, FLAVORS
 
 WALL_LINE = "wall_clock"
 _GROUND_STATIONS = range(240, 256)  # ids that ground stations take: what they say is kept, and is no vehicle's
 _LEVELS = ("CRITICAL", "CRITICAL", "CRITICAL", "ERROR", "WARN", "INFO", "INFO", "DEBUG")  # by MAV_SEVERITY
-_COPTERS = frozenset({2, 3, 4, 13, 14, 15, 29})  # MAV_TYPE of all that ArduCopter flies
+_VEHICLE = "V"
 _ARMED = 128  # MAV_MODE_FLAG_SAFETY_ARMED
 
 
@@ -53,37 +51,65 @@ Floats = npt.NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class _Told:
-    """Messages of one kind of one vehicle, and when: seconds since the log began."""
+    """Messages of one kind of one sender in a stretch of the log, and when: seconds since the log began."""
 
     times_s: Floats
     messages: Sequence[Message]
 
 
 class Logbook:
-    """Messages by vehicle and kind, being written to one stream."""
+    """Writes messages to one stream, stretch by stretch: between two of them it keeps the tracks alone.
 
-    def __init__(self, entries: Sequence[Entry], stream: rr.RecordingStream) -> None:
-        self._began_s = min(entry.unix_s for entry in entries)
-        self._stream = stream
+    Attributes:
+        vehicles: who has sent a heartbeat. kinds: of messages, so far.
+    """
+
+    def __init__(self, stream: rr.RecordingStream, *, began_s: float) -> None:
+        self._stream, self._began_s = stream, began_s
+        self._home: GeoPoint | None = None
+        self._styled: set[str] = set()
+        # Of each vehicle, stretch by stretch: (P, 2) degrees, (P, 3) meters.
+        self._tracks: dict[str, list[tuple[Floats, Floats]]] = defaultdict(list)
+        self._modes: dict[str, str] = {}
+        self._texts: dict[str, Texts] = defaultdict(Texts)
+        self.vehicles: set[str] = set()
+        self.kinds: set[str] = set()
+
+    def write(self, entries: Iterable[Entry]) -> None:
+        """Write a stretch."""
         gathered: dict[tuple[str, str], list[Entry]] = defaultdict(list)
-        for entry in sorted(entries, key=lambda entry: entry.unix_s):
-            gathered[_vehicle(entry.message), entry.message.get_type()].append(entry)
-        self._told = {
-            key: _Told(np.array([entry.unix_s for entry in told]) - self._began_s, [entry.message for entry in told])
-            for key, told in gathered.items()
-        }
-        self.vehicles = sorted({vehicle for vehicle, kind in self._told if kind == "HEARTBEAT" and vehicle[0] == "V"})
+        for entry in entries:
+            gathered[_sender(entry.message), entry.message.get_type()].append(entry)
+        for (sender, kind), some in gathered.items():
+            times_s = np.array([entry.unix_s for entry in some]) - self._began_s
+            told = _Told(times_s, [entry.message for entry in some])
+            self.kinds.add(kind)
+            self._numbers(f"/mavlink/{sender}/{kind}", told)
+            if sender.startswith(_VEHICLE):
+                self._vehicle(sender, kind, told)
 
-    def write(self) -> None:
-        """Write everything."""
-        for (vehicle, kind), told in self._told.items():
-            self._numbers(f"/mavlink/{vehicle}/{kind}", told)
-        for place, vehicle in enumerate(self.vehicles):
-            color = palette.series_colors(place + 1)[place]
-            self._track(vehicle, color)
-            self._modes(vehicle)
-            self._words(vehicle)
-            self._charts(vehicle, color)
+    def finish(self) -> None:
+        """Write what is known at the end alone: whole tracks, texts that never ended, and how all of it is shown."""
+        for vehicle, texts in self._texts.items():
+            self._say(vehicle, texts.end())
+        for vehicle, pieces in self._tracks.items():
+            color = _color(vehicle)
+            globe, places = (np.concatenate(each) for each in zip(*pieces, strict=True))
+            line = rr.GeoLineStrings(lat_lon=[globe], colors=[color], radii=[-1.5])
+            self._stream.log(f"/geo/{vehicle}/track", line, static=True)
+            flown = rr.LineStrips3D([places], colors=[color], radii=[-1.2])
+            self._stream.log(f"/world/{vehicle}/track", flown, static=True)
+        self._stream.send_blueprint(_blueprint(self.kinds))
+
+    def _vehicle(self, vehicle: str, kind: str, told: _Told) -> None:
+        if kind == "HEARTBEAT":
+            self.vehicles.add(vehicle)
+            self._lane(vehicle, told)
+        elif kind == "STATUSTEXT":
+            self._words(vehicle, told)
+        elif kind == "GLOBAL_POSITION_INT":
+            self._track(vehicle, told)
+        self._charts(vehicle, kind, told)
 
     def _send(self, path: str, times_s: Floats, columns: rr.ComponentColumnList) -> None:
         since_1970_ns = np.round((self._began_s + times_s) * 1e9).astype("datetime64[ns]")
@@ -93,120 +119,93 @@ class Logbook:
         ]
         self._stream.send_columns(path, indexes=indexes, columns=list(columns))
 
+    def _style(self, path: str, look: rr.AsComponents) -> None:
+        """Say once how an entity looks."""
+        if path not in self._styled:
+            self._styled.add(path)
+            self._stream.log(path, look, static=True)
+
     def _numbers(self, path: str, told: _Told) -> None:
         rows = [numbers_of(message) for message in told.messages]
         if rows[0]:
-            self._stream.log(path, rr.SeriesLines(names=list(rows[0])), static=True)
+            self._style(path, rr.SeriesLines(names=list(rows[0])))
             values = np.array([list(row.values()) for row in rows])
             columns = rr.Scalars.columns(scalars=values.ravel()).partition([values.shape[1]] * len(rows))
             self._send(path, told.times_s, columns)
 
-    def _track(self, vehicle: str, color: int) -> None:
-        """Where it flew: on the globe, and in meters about where the first vehicle was first."""
-        told = self._told.get((vehicle, "GLOBAL_POSITION_INT"))
-        known = None if told is None else np.array([bool(m.lat or m.lon) for m in told.messages])
-        if told is None or known is None or not known.any():
+    def _track(self, vehicle: str, told: _Told) -> None:
+        """Where it flew: on the globe, and in meters about the first place that any vehicle told."""
+        known = np.array([bool(m.lat or m.lon) for m in told.messages])
+        if not known.any():
             return
         fixes = [message for message, sure in zip(told.messages, known, strict=True) if sure]
-        globe = np.array([(message.lat * 1e-7, message.lon * 1e-7) for message in fixes])
-        home = self._home()
-        places = np.array(
-            [
-                enu_from_geo(home, GeoPoint(m.lat * 1e-7, m.lon * 1e-7, home.altitude_m + m.relative_alt * 1e-3))
-                for m in fixes
-            ]
-        )
-        times_s = told.times_s[known]
-        self._stream.log(
-            f"/geo/{vehicle}/track", rr.GeoLineStrings(lat_lon=[globe], colors=[color], radii=[-1.5]), static=True
-        )
-        self._stream.log(
-            f"/world/{vehicle}/track", rr.LineStrips3D([places], colors=[color], radii=[-1.2]), static=True
-        )
-        self._stream.log(f"/geo/{vehicle}", rr.GeoPoints.from_fields(colors=[color], radii=[-5.0]), static=True)
+        globe = np.array([(m.lat * 1e-7, m.lon * 1e-7) for m in fixes])
+        if self._home is None:
+            self._home = GeoPoint(globe[0, 0], globe[0, 1], fixes[0].alt * 1e-3)
+        home = self._home
+        points = [GeoPoint(m.lat * 1e-7, m.lon * 1e-7, home.altitude_m + m.relative_alt * 1e-3) for m in fixes]
+        places = np.array([enu_from_geo(home, point) for point in points])
+        self._tracks[vehicle].append((globe, places))
+        color, times_s = _color(vehicle), told.times_s[known]
+        self._style(f"/geo/{vehicle}", rr.GeoPoints.from_fields(colors=[color], radii=[-5.0]))
         named = rr.Points3D.from_fields(colors=[color], radii=[-5.0], labels=[vehicle], show_labels=True)
-        self._stream.log(f"/world/{vehicle}", named, static=True)
+        self._style(f"/world/{vehicle}", named)
         self._send(f"/geo/{vehicle}", times_s, rr.GeoPoints.columns(positions=globe))
         self._send(f"/world/{vehicle}", times_s, rr.Points3D.columns(positions=places))
 
-    def _home(self) -> GeoPoint:
-        for vehicle in self.vehicles:
-            told = self._told.get((vehicle, "GLOBAL_POSITION_INT"))
-            for message in () if told is None else told.messages:
-                if message.lat or message.lon:
-                    return GeoPoint(message.lat * 1e-7, message.lon * 1e-7, message.alt * 1e-3)
-        return GeoPoint(0.0, 0.0, 0.0)
-
-    def _modes(self, vehicle: str) -> None:
+    def _lane(self, vehicle: str, told: _Told) -> None:
         """A lane of flight modes, recorded when they change."""
-        told = self._told[vehicle, "HEARTBEAT"]
-        states = [_mode(message) for message in told.messages]
-        changed = [row for row, state in enumerate(states) if row == 0 or states[row - 1] != state]
-        columns = rr.StateChange.columns(state=[states[row] for row in changed])
-        self._send(f"/vehicles/{vehicle}/mode", told.times_s[changed], columns)
+        changed, states = [], []
+        for row, message in enumerate(told.messages):
+            state = _mode(message)
+            if self._modes.get(vehicle) != state:
+                self._modes[vehicle] = state
+                changed.append(row)
+                states.append(state)
+        if changed:
+            self._send(f"/vehicles/{vehicle}/mode", told.times_s[changed], rr.StateChange.columns(state=states))
 
-    def _words(self, vehicle: str) -> None:
-        told = self._told.get((vehicle, "STATUSTEXT"))
-        if told is not None:
-            texts = [f"{vehicle}  {_text(message)}" for message in told.messages]
-            levels = [_LEVELS[min(message.severity, len(_LEVELS) - 1)] for message in told.messages]
-            self._send(f"/log/{vehicle}", told.times_s, rr.TextLog.columns(text=texts, level=levels))
+    def _words(self, vehicle: str, told: _Told) -> None:
+        texts, heard = self._texts[vehicle], zip(told.times_s.tolist(), told.messages, strict=True)
+        self._say(vehicle, [said for time_s, message in heard for said in texts.hear(time_s, message)])
 
-    def _charts(self, vehicle: str, color: int) -> None:
+    def _say(self, vehicle: str, told: Sequence[Said]) -> None:
+        if told:
+            texts = [f"{vehicle}  {said.text}" for said in told]
+            levels = [_LEVELS[min(said.severity, len(_LEVELS) - 1)] for said in told]
+            times_s = np.array([said.time_s for said in told])
+            self._send(f"/log/{vehicle}", times_s, rr.TextLog.columns(text=texts, level=levels))
+
+    def _charts(self, vehicle: str, kind: str, told: _Told) -> None:
         for place, chart in enumerate(_CHARTS):
-            told = self._told.get((vehicle, chart.kind))
-            if told is not None:
+            if chart.kind == kind:
                 path = f"/charts/{place}/{vehicle}"
-                self._stream.log(path, rr.SeriesLines(names=[vehicle], colors=[color], widths=[1.4]), static=True)
+                self._style(path, rr.SeriesLines(names=[vehicle], colors=[_color(vehicle)], widths=[1.4]))
                 values = np.array([chart.value_of(message) for message in told.messages], dtype=np.float64)
                 self._send(path, told.times_s, rr.Scalars.columns(scalars=values))
 
 
-def record_log(entries: Sequence[Entry], path: Path, *, name: str) -> list[str]:
-    """Write the messages of one or several logs as a recording; returns the vehicles in it.
-
-    Raises:
-        OutputError: it cannot be written.
-    """
-    part = path.with_name(path.name + ".part")
-    stream = rr.RecordingStream(APPLICATION_ID, send_properties=False)
-    try:
-        stream.set_sinks(
-            rr.FileSink(part), default_blueprint=_blueprint({entry.message.get_type() for entry in entries})
-        )
-        stream.send_recording_name(name)
-        stream.log("/world", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
-        logbook = Logbook(entries, stream)
-        logbook.write()
-        stream.flush()
-        stream.disconnect()
-        optimize(part, path)
-    except (OSError, RuntimeError) as error:
-        raise OutputError(f"cannot record to {path}: {error}") from error
-    finally:
-        part.unlink(missing_ok=True)
-    return logbook.vehicles
-
-
-def _vehicle(message: Message) -> str:
+def _sender(message: Message) -> str:
     """V7 is the autopilot of system 7, S255 a ground station or a part beside the autopilot."""
     system, component = message.get_srcSystem(), message.get_srcComponent()
     if component == 1 and system not in _GROUND_STATIONS:
-        return f"V{system}"
+        return f"{_VEHICLE}{system}"
     return f"S{system}-{component}"
 
 
+def _color(vehicle: str) -> int:
+    return palette.series_colors(max(1, int(vehicle.removeprefix(_VEHICLE))))[-1]
+
+
 def _mode(heartbeat: Message) -> str:
+    """The mode in the autopilot's own words, and whether its motors may turn."""
     armed = "armed" if heartbeat.base_mode & _ARMED else "disarmed"
-    flavor = FLAVORS.get(heartbeat.autopilot)
-    # ArduPilot's planes and rovers number their modes otherwise.
-    known = flavor is not None and (flavor is not ARDUPILOT or heartbeat.type in _COPTERS)
-    name = flavor.mode_name(heartbeat.custom_mode) if flavor and known else f"mode {heartbeat.custom_mode}"
-    return f"{name}, {armed}"
-
-
-def _text(message: Message) -> str:
-    return str(message.text).rstrip("\0")
+    flavor, number = FLAVORS.get(heartbeat.autopilot), heartbeat.custom_mode
+    if flavor is ARDUPILOT:
+        name = ardupilot_mode(heartbeat.type, number)
+    else:
+        name = flavor.mode_names.get(number) if flavor else None
+    return f"{name or f'mode {number}'}, {armed}"
 
 
 def _blueprint(kinds: Collection[str]) -> rrb.Blueprint:
