@@ -41,7 +41,7 @@ def _mission(scene: Scene) -> rrb.Container:
             rrb.Horizontal(_coverage(), _radio(scene), column_shares=[5, 3]),
             row_shares=[5, 2],
         ),
-        rrb.Vertical(_lanes(scene), event_log("/log", name="Events"), row_shares=[5, 3]),
+        _story(scene),
         column_shares=[3, 2],
         name="Mission",
     )
@@ -102,11 +102,14 @@ def _radio(scene: Scene) -> rrb.View:
     )
 
 
-def _lanes(scene: Scene) -> rrb.View:
-    if not scene.faults:
-        return rrb.StateTimelineView(origin="/agents", contents="/agents/**", name="What each agent does")
-    contents, name = ["/agents/**", hazards.LANE], "What each agent does, and what is wrong"
-    return rrb.StateTimelineView(origin="/", contents=contents, name=name)
+def _story(scene: Scene) -> rrb.Container:
+    """What happens, in lanes and in words; and what is wrong, above it, where a mission has faults of its own."""
+    lanes = rrb.StateTimelineView(origin="/agents", contents="/agents/**", name="What each agent does")
+    views, shares = [lanes, event_log("/log", name="Events")], [5.0, 3.0]
+    if scene.faults:
+        wrong = rrb.StateTimelineView(origin=hazards.LANE, name="Faults in force", time_view=whole_time())
+        views, shares = [wrong, *views], [1.3, *shares]
+    return rrb.Vertical(*views, row_shares=shares)
 
 
 def _telemetry(scene: Scene) -> rrb.Container:

@@ -45,7 +45,7 @@ class Hazards:
 
 
 def in_force(faults: Sequence[Spell], tick: int) -> str:
-    """What is wrong so many ticks after MISSION began: "kill: agent 3 + loss of 30%: all agents", or "none"."""
+    """What is wrong so many ticks after MISSION began: "kill: A3 + loss of 30%: all agents", or "none"."""
     return " + ".join(f"{spell.fault.what}: {whom(spell.fault)}" for spell in faults if spell.holds(tick)) or NONE
 
 

@@ -31,7 +31,6 @@ GRID = 0x4C5664FF
 EDGE = 0x7088B0FF
 LINK = 0x6F7F96FF
 WRONG = _RED  # a fault of the mission is in force
-CALM = 0x5F6B7DFF  # none is
 BROKEN = _RED  # a frame that was lost on its way
 
 COVERAGE_NOW = _GREEN

@@ -174,8 +174,10 @@ def _set_charts(tape: Tape, scene: Scene) -> None:
 
 def _hazards(scene: Scene) -> rr.StateConfiguration:
     states = hazards.states_of(scene.faults)
-    colors = [palette.CALM if state == hazards.NONE else palette.WRONG for state in states]
-    return rr.StateConfiguration(values=states, labels=states, colors=np.array(colors, dtype=np.uint32))
+    colors = np.full(len(states), palette.WRONG, dtype=np.uint32)
+    return rr.StateConfiguration(
+        values=states, labels=states, colors=colors, visible=[state != hazards.NONE for state in states]
+    )
 
 
 def _chart_styles(scene: Scene) -> dict[str, list[tuple[str, int, float]]]:
