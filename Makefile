@@ -5,8 +5,8 @@ BIN := $(VENV)/bin
 PEERS := .venv-peers
 CLIENTS := .venv-clients
 
-.PHONY: run test test-slow test-network test-clients fuzz check format bench bench-processes bench-vehicles bench-recording pictures \
-	bench-peers clean
+.PHONY: run test test-slow test-network test-clients fuzz check format bench bench-processes bench-scale bench-vehicles bench-recording \
+	pictures bench-peers clean
 
 run: $(VENV)/ground.done
 	@mkdir -p out
@@ -47,6 +47,10 @@ bench: $(VENV)/all.done
 # Ticks a second of daemons in lockstep beside one process, and what a daemon weighs: two minutes.
 bench-processes: $(VENV)/all.done
 	$(BIN)/python -m tests.benchmarks.processes
+
+# What an agent costs among ten, and among a thousand: four minutes.
+bench-scale: $(VENV)/all.done
+	$(BIN)/python -m tests.benchmarks.scale $(SCALE)
 
 bench-vehicles: $(VENV)/all.done
 	$(BIN)/python -m tests.benchmarks.vehicles

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from comms import link
 from comms.bundle import MAX_FRAMES, Heard, bundle
+from comms.cells import Cells
 from comms.codec import MAX_FRAME_BYTES
 from comms.disturbance import CALM, Disturbance
 from comms.keys import Keys, sender
@@ -92,16 +93,17 @@ class Air:
         broken: list[tuple[int, int]] = []
         spoken = [self._spoken.popleft() for _ in range(len(self._spoken))]
         spoken.sort(key=lambda frame: frame[0])
+        cells = Cells(positions_m, range_m=range_m)
         for src, payload in spoken:
             count.sent += 1
             count.bytes += len(payload)
             x, y = positions_m[src]
-            for dst, (other_x, other_y) in enumerate(positions_m):
-                if dst == src:
+            count.out_of_range += self._n_agents - 1
+            for dst in cells.near(x, y):
+                other_x, other_y = positions_m[dst]
+                if dst == src or not link.in_range(other_x - x, other_y - y, range_m):
                     continue
-                if not link.in_range(other_x - x, other_y - y, range_m):
-                    count.out_of_range += 1
-                    continue
+                count.out_of_range -= 1
                 loss, delay_ticks = self._quality(tick, src, dst, disturbance)
                 if link.survives(self._seed, tick, src, dst, loss):
                     self._under_way.setdefault(tick + delay_ticks, []).append((dst, src, payload))

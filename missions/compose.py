@@ -16,6 +16,7 @@ from comms.session import Bus
 from comms.signing import Signing, read_key
 from comms.transport import Transport
 from missions.mission import CircleFence, Disc, Mission, PolygonFence, TrackTargets
+from missions.mission.vehicle import simulated_system_id
 from missions.rules import start_places
 from missions.sides.medium import Medium, OpenField, SimulatedAir
 from missions.targets import herd
@@ -238,7 +239,7 @@ def vehicles(
         parts.append(
             SimulatedVehicle(
                 config=config,
-                system_id=uid + 1,
+                system_id=simulated_system_id(uid),
                 home=homes[uid],
                 heading_rad=atan2(east, north),
                 seed=mission.seed,

@@ -17,6 +17,7 @@ from contextlib import ExitStack, contextmanager
 from comms.mavlink import Endpoint
 from comms.signing import Signing
 from comms.transport import Transport, TransportError, transport_of
+from missions.mission import MOST_SYSTEMS
 from missions.observation import Observation
 from missions.problems import InputError
 from vehicle_sim.autopilot import SimulatedVehicle
@@ -101,8 +102,10 @@ def open_ground_link(
     """A ground link on the transport that `url` names, which closes with it. `option` is how the user asked for it.
 
     Raises:
-        InputError: it cannot be opened.
+        InputError: it cannot be opened, or vehicles would be the same system there.
     """
+    if len({vehicle.autopilot.system_id for vehicle in vehicles}) < len(vehicles):
+        raise InputError(f"{option}: got a swarm of {len(vehicles)}; allowed: at most {MOST_SYSTEMS} on one port")
     with ExitStack() as stack:
         try:
             transport = stack.enter_context(transport_of(url))

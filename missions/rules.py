@@ -10,7 +10,7 @@ from itertools import groupby
 from comms.arena import edge_distance_m
 from comms.chance import PLACE_AGENT
 from comms.signing import KeyFileError, read_key
-from missions.mission import CircleFence, Mission, MovingTargets, PolygonFence, TrackTargets
+from missions.mission import MOST_SYSTEMS, CircleFence, Mission, MovingTargets, PolygonFence, TrackTargets
 from missions.problems import InputError, Path, shown
 from missions.training.weights import read_weights
 from swarm_agent.fence import encloses
@@ -166,6 +166,15 @@ def _setpoints_come_often(mission: Mission) -> str | None:
     return f"at most {shown(SLOWEST_SETPOINTS_S)} where {where}: a PX4 wants setpoints at more than 2 Hz"
 
 
+def _systems_have_ids(mission: Mission) -> str | None:
+    kind = mission.vehicle.kind
+    if kind == "ideal" or mission.agents.count <= MOST_SYSTEMS:
+        return None
+    return (
+        f"at most {MOST_SYSTEMS} where vehicle.kind is {kind} (a MAVLink system id is one byte), or vehicle.kind ideal"
+    )
+
+
 def _system_ids_are_for_links(mission: Mission) -> str | None:
     given = len(mission.vehicle.system_ids)
     if given in (0, len(mission.vehicle.links)):
@@ -287,6 +296,7 @@ RULES = (
     Rule("policy.weights", (), _weights_are_readable),
 )
 FLIGHT_RULES = (
+    Rule("agents.count", ("vehicle.kind",), _systems_have_ids),
     Rule("policy.predictor", (), _predictor_flies),
     Rule("policy.answering", (), _answering_flies),
 )

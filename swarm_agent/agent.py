@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import compress, count
 from math import floor
 from typing import NamedTuple
 
@@ -238,7 +239,7 @@ class Agent:
             velocity_m_s=state.velocity_m_s,
             heading_rad=state.heading_rad,
             battery=state.battery,
-            tags=tuple([j for j, mine in enumerate(self._table.tagged) if mine]),
+            tags=tuple(compress(count(), self._table.tagged)),
             calls=calls,
             helping=None if self._mind.helping == NOBODY else self._mind.helping,
             mates=tuple([frame.src for frame in inbox]),
@@ -252,8 +253,7 @@ class Agent:
                 HelpCallStatus(j, min(table.loss_in_s[j], horizon_s), table.loss_in_s[j] <= horizon_s)
                 if table.tagged[j]
                 else HelpCallStatus(j, 0.0)
-                for j, calling in enumerate(table.calling)
-                if calling
+                for j in compress(count(), table.calling)
             ]
         )
 

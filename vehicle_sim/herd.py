@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from typing import Protocol
 
 from comms.arena import Arena, clamped
+from comms.cells import Cells
 from vehicle_sim import targets
 from vehicle_sim.tracks import Tracks
 
@@ -72,15 +73,21 @@ class Evasive(_Walkers):
         super().__init__(arena=arena, places=places, headings=headings, tick_s=tick_s, seed=seed)
         self._speed_m_s = speed_m_s
         self._notice_range_m = notice_range_m
+        self._cells = Cells((), range_m=notice_range_m)
+
+    def advance(self, tick: int, agents_x: Sequence[float], agents_y: Sequence[float]) -> None:
+        self._cells = Cells(list(zip(agents_x, agents_y, strict=True)), range_m=self._notice_range_m)
+        super().advance(tick, agents_x, agents_y)
 
     def _step(
         self, target: int, state: targets.State, tick: int, agents_x: Sequence[float], agents_y: Sequence[float]
     ) -> targets.State:
+        near = self._cells.near(*state[:2])  # of the others it notices nothing
         return targets.evade(
             self._arena,
             *state,
-            agents_x,
-            agents_y,
+            [agents_x[i] for i in near],
+            [agents_y[i] for i in near],
             self._notice_range_m,
             self._speed_m_s,
             self._tick_s,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
+from comms.cells import Cells
 from comms.messages import Sighting
 from vehicle_sim.herd import Herd, Place
 from vehicle_sim.sensing import ALL_AROUND, facing, reported, sees
@@ -32,6 +33,7 @@ class World:
     ) -> None:
         self.herd = herd
         self._ranges_m = tuple(sensing_ranges_m)
+        self._farthest_m = max(sensing_ranges_m)
         self._facing = list(headings)
         self._cos_half_opening = cos_half_opening
         self._identity_error = identity_error
@@ -58,11 +60,13 @@ class World:
         seen = [False] * len(self.herd.places)
         self._facing = [facing(*was, *velocity) for was, velocity in zip(self._facing, velocities_m_s, strict=True)]
         sightings: list[list[Sighting]] = [[] for _ in agents]
+        cells = Cells(agents, range_m=self._farthest_m)
         for target, place in enumerate(self.herd.places):
             if place is None:
                 continue
             x, y = place
-            for uid, agent in enumerate(agents):
+            for uid in cells.near(x, y):
+                agent = agents[uid]
                 if agent is not None and self._sees(uid, x - agent[0], y - agent[1]):
                     error = identity_errors.get(uid, self._identity_error)
                     name = reported(target, len(seen), error, uid, self._seed, tick)

@@ -21,9 +21,10 @@ from missions.mission.policy import Policy
 from missions.mission.radio import Radio
 from missions.mission.safety import ArenaFence, CircleFence, PolygonFence, Safety
 from missions.mission.targets import MovingTargets, TargetDeployment, Targets, TrackTargets
-from missions.mission.vehicle import Battery, Limits, Vehicle, Wind
+from missions.mission.vehicle import MOST_SYSTEMS, Battery, Limits, Vehicle, Wind, simulated_system_id
 
 __all__ = [
+    "MOST_SYSTEMS",
     "NAME",
     "AgentDeployment",
     "Agents",
@@ -93,7 +94,7 @@ class Mission(Part):
     def system_id(self, uid: int) -> int | None:
         """The MAVLink system id of agent `uid`'s vehicle; None where the vehicle tells."""
         if self.link(uid) is None:
-            return uid + 1
+            return simulated_system_id(uid)
         return self.vehicle.system_ids[uid] if self.vehicle.system_ids else None
 
     @property

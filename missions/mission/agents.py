@@ -9,6 +9,8 @@ from pydantic import Field
 
 from missions.mission.part import NonNegative, Part, Positive
 
+MOST_AGENTS = 1000
+
 
 class Sensing(Part):
     """What an agent sees of the ground around it."""
@@ -52,8 +54,8 @@ class Altitude(Part):
 class Agents(Part):
     """The drones."""
 
-    count: Annotated[int, Field(ge=1, le=250)] = 10
-    """How many; a MAVLink system id is one byte."""
+    count: Annotated[int, Field(ge=1, le=MOST_AGENTS)] = 10
+    """How many; more than 250 with ideal vehicles alone, since a MAVLink system id is one byte."""
     speed_m_s: Annotated[float, Field(ge=0.1, le=50)] = 0.4
     """Greatest speed at which agents follow and search."""
     sensing: Sensing = Sensing()
@@ -62,7 +64,7 @@ class Agents(Part):
     """Where agents start."""
     altitude: Altitude = Altitude()
     """How high agents fly."""
-    may_lose: Annotated[int, Field(ge=0, le=250)] = 0
+    may_lose: Annotated[int, Field(ge=0, le=MOST_AGENTS)] = 0
     """How many agents' processes may die, or stop answering, without the mission having failed."""
     alone_s: Annotated[float, Field(ge=0, le=3600)] = 30.0
     """How long an agent whose process does not hear the world's holds still before it flies home."""

@@ -10,10 +10,11 @@ from typing import Annotated, Literal
 
 from pydantic import Discriminator, Field, Tag
 
+from missions.mission.agents import MOST_AGENTS
 from missions.mission.part import Allowed, Part, tag_by
 from missions.mission.vehicle import Airspeed, Bearing
 
-Uid = Annotated[int, Field(ge=0, lt=250)]
+Uid = Annotated[int, Field(ge=0, lt=MOST_AGENTS)]
 UIDS = "a list of agents' numbers, from 0"
 Uids = Annotated[tuple[Uid, ...], Field(strict=False, min_length=1), Allowed(UIDS)]
 AnyUids = Annotated[Uids | None, Field(strict=False), Allowed(f"{UIDS}, or null: all")]
@@ -143,7 +144,7 @@ class Partition(LastingFault):
     """The swarm falls into groups that do not hear each other."""
     groups: Annotated[
         tuple[Annotated[tuple[Uid, ...], Field(strict=False)], ...],
-        Field(strict=False, min_length=2, max_length=250),
+        Field(strict=False, min_length=2, max_length=MOST_AGENTS),
         Allowed(GROUPS),
     ]
     """Who still hears whom; agents in no group hear nobody."""

@@ -24,7 +24,13 @@ def _link_url(text: str) -> str:
 LINKS = f"a list with a link for each agent: {FORMS}, or null"
 LinkUrl = Annotated[str, AfterValidator(_link_url)]
 SYSTEM_IDS = "a list with a whole number from 1 to 250, or null, for each agent"
-SystemId = Annotated[int, Field(ge=1, le=250)]
+MOST_SYSTEMS = 250  # MAVLink's other ids are those of ground stations
+SystemId = Annotated[int, Field(ge=1, le=MOST_SYSTEMS)]
+
+
+def simulated_system_id(uid: int) -> int:
+    """The MAVLink system id of agent `uid`'s simulated vehicle; the 251st, alone on its own link, is 1 again."""
+    return uid % MOST_SYSTEMS + 1
 
 
 class Limits(Part):

@@ -25,6 +25,9 @@ def issue_calls(t: Table, p: Params, now: float) -> None:
     """Fill `t.calling`: the tags for which help is called, and the targets lost. Never the nearest tag: it is safe."""
     safe = nearest_tag(t)
     for j in range(len(t.tagged)):
+        if not t.tagged[j] and t.lost_at_s[j] == NEVER:
+            t.calling[j] = False  # neither mine nor missed: most targets, most of the time
+            continue
         wanted = t.loss_in_s[j] < FAR or p.call == Call.ALL_BUT_NEAREST
         t.calling[j] = (t.tagged[j] and j != safe and wanted) or is_lost(t, p, j, now)
 
@@ -37,7 +40,7 @@ def remember_losses(t: Table, p: Params, me_x: float, me_y: float, now: float) -
     """
     for j in range(len(t.tagged)):
         if not t.tagged[j] and t.lost_at_s[j] == NEVER:
-            continue  # neither mine nor missed: most targets, most of the time
+            continue  # neither mine nor missed
         if t.sensed[j] or owned_by_mate(t, p, j, now):
             t.lost_at_s[j] = NEVER
         elif t.tagged[j]:
@@ -106,6 +109,8 @@ def choose(
         return NOBODY, FAR  # not mine to choose
     best, best_capture, best_distance, best_unanswered = NOBODY, FAR, FAR, False
     for j in range(len(t.caller)):
+        if t.caller[j] == NOBODY and t.lost_at_s[j] == NEVER:
+            continue  # nobody has called for it: most targets, most of the time
         if not is_called(t, p, j, me_x, me_y, now):
             continue
         capture = time_if_answered(t, p, j, me_x, me_y, now)

@@ -60,14 +60,18 @@ CASES: dict[str, tuple[str, list[str]]] = {
     "zero where above 0 is asked": ("name: m\nradio: {range_m: 0}\n", [
         ":2: radio.range_m: got 0; allowed: a number above 0",
     ]),
-    "too many agents": ("name: m\nagents: {count: 251}\n", [
-        ":2: agents.count: got 251; allowed: a whole number from 1 to 250",
+    "too many agents": ("name: m\nagents: {count: 1001}\n", [
+        ":2: agents.count: got 1001; allowed: a whole number from 1 to 1000",
+    ]),
+    "more agents than MAVLink systems": ("name: m\nagents: {count: 251, deployment: {radius_m: 30}}\n", [
+        ":2: agents.count: got 251; allowed: at most 250 where vehicle.kind is simulated "
+        "(a MAVLink system id is one byte), or vehicle.kind ideal",
     ]),
     "half an agent": ("name: m\nagents: {count: 2.5}\n", [
-        ":2: agents.count: got 2.5; allowed: a whole number from 1 to 250",
+        ":2: agents.count: got 2.5; allowed: a whole number from 1 to 1000",
     ]),
     "a whole number written as a float": ("name: m\nagents: {count: 2.0}\n", [
-        ":2: agents.count: got 2; allowed: a whole number from 1 to 250",
+        ":2: agents.count: got 2; allowed: a whole number from 1 to 1000",
     ]),
     "text for a number": ('name: m\nduration_s: "240"\n', [
         ':2: duration_s: got "240"; allowed: a number above 0',
@@ -385,13 +389,13 @@ CASES: dict[str, tuple[str, list[str]]] = {
     ]),
     # Many at once: kinds of mistakes do not hide each other, nor do wrong keys the rules between the right ones.
     "everything": (
-        "nme: m\nseed: -1\nagents:\n  count: 300\n  count: 3\n  sensing: {range_m: 25}\ntargets:\n  motion: flying\n"
+        "nme: m\nseed: -1\nagents:\n  count: 3000\n  count: 3\n  sensing: {range_m: 25}\ntargets:\n  motion: flying\n"
         "vehicle: !drone {}\narena: {shape: disc, width_m: 3}\n",
         [
             f": name: got nothing; allowed: {NAME}",
             f":1: nme: got an unknown key; allowed: {TOP}; did you mean name?",
             ":2: seed: got -1; allowed: a whole number from 0 to 4294967295",
-            ":4: agents.count: got 300; allowed: a whole number from 1 to 250",
+            ":4: agents.count: got 3000; allowed: a whole number from 1 to 1000",
             ":5: agents.count: got a second value (the first is in line 4); allowed: each key once",
             ":6: radio.range_m: got 20 (the default); allowed: more than agents.sensing.range_m (25)",
             ':8: targets.motion: got "flying"; allowed: evasive, random, static or tracks',

@@ -70,7 +70,7 @@ def test_a_mission_that_needs_a_file_fits_the_schema_once_it_has_one() -> None:
         {"name": "a b"},
         {"name": "m", "sed": 1},
         {"name": "m", "seed": "1"},
-        {"name": "m", "agents": {"count": 251}},
+        {"name": "m", "agents": {"count": 1001}},
         {"name": "m", "arena": {"shape": "polygon"}},
         {"name": "m", "arena": {"width_m": 3, "radius_m": 3}},
         {"name": "m", "targets": {"motion": "tracks"}},

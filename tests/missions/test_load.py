@@ -148,12 +148,12 @@ def test_an_override_mends_a_wrong_value() -> None:
 @pytest.mark.parametrize(
     ("override", "expected"),
     [
-        ("agents.count=0", "--set: agents.count: got 0; allowed: a whole number from 1 to 250"),
+        ("agents.count=0", "--set: agents.count: got 0; allowed: a whole number from 1 to 1000"),
         ("agents.cuont=3", "--set: agents.cuont: got an unknown key; "
          "allowed: count, speed_m_s, sensing, deployment, altitude, may_lose, alone_s; did you mean count?"),
         ("agents={count: 3, sped_m_s: 1}", "--set: agents.sped_m_s: got an unknown key; "
          "allowed: count, speed_m_s, sensing, deployment, altitude, may_lose, alone_s; did you mean speed_m_s?"),
-        ("agents.count.max=3", "--set: agents.count: got a mapping; allowed: a whole number from 1 to 250"),
+        ("agents.count.max=3", "--set: agents.count: got a mapping; allowed: a whole number from 1 to 1000"),
         ("seed=", "--set: seed: got null; allowed: a whole number from 0 to 4294967295"),
         ("seed='7'", '--set: seed: got "7"; allowed: a whole number from 0 to 4294967295'),
         ("seed='", "--set: seed: got bad YAML (found unexpected end of stream); allowed: YAML 1.2"),
@@ -174,7 +174,7 @@ def test_mistakes_of_the_file_come_before_those_of_overrides() -> None:
     assert problems("name: m\nseed: -1\ntick_s: 9\n", "agents.count=0") == [
         "m.yaml:2: seed: got -1; allowed: a whole number from 0 to 4294967295",
         "m.yaml:3: tick_s: got 9; allowed: a number from 0.01 to 1",
-        "--set: agents.count: got 0; allowed: a whole number from 1 to 250",
+        "--set: agents.count: got 0; allowed: a whole number from 1 to 1000",
     ]
 
 
