@@ -19,9 +19,9 @@ from tests.missions.toy_observations import PREPARATION, toy_observations, toy_s
 
 KILL = Kill(kind="kill", at_s=2.0, for_s=3.0, agents=(1,))
 LOSS = Loss(kind="loss", at_s=4.0, share=0.3)
-BOTH = "kill: agent 1 + loss of 30%: all agents"
+BOTH = "kill: A1 + loss of 30%: all agents"
 # Tenths of a second since MISSION began -> what holds from there on.
-STORY = {20: "kill: agent 1", 40: BOTH, 50: "loss of 30%: all agents"}
+STORY = {20: "kill: A1", 40: BOTH, 50: "loss of 30%: all agents"}
 
 
 @pytest.fixture(autouse=True)
