@@ -21,6 +21,8 @@ def import_logs(paths: Sequence[Path], to: Path) -> None:
     Raises:
         InputError: a log cannot be read or has no MAVLink in it, or the recording cannot be written.
     """
+    if to.suffix != ".rrd" or to.resolve() in {path.resolve() for path in paths}:
+        raise InputError(f"--to: got {to}; allowed: a file that ends with .rrd, and is none of the logs")
     console = Console(highlight=False, markup=False, soft_wrap=True)
     with ExitStack() as stack:
         logs = [stack.enter_context(_opened(path)) for path in paths]

@@ -14,8 +14,11 @@ class Coverage:
         self._seen_in_all = 0
         self._present_in_all = 0
 
-    def add(self, *, seen: int, present: int) -> None:
-        """Count one tick."""
+    def add(self, *, seen: int, present: int, tick: int | None = None) -> None:
+        """Count one tick: the next, or that `tick` of the mission; between them nothing was to be seen."""
+        missing = 0 if tick is None else max(0, tick - len(self._seen))
+        self._seen += [0] * missing
+        self._present += [0] * missing
         self._seen.append(seen)
         self._present.append(present)
         self._seen_in_all += seen

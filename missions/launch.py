@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import signal
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from math import acos, isinf
 from typing import TYPE_CHECKING, Any
@@ -30,7 +30,7 @@ from missions.plan import coverage_floor
 from missions.problems import InputError, OutputError
 from missions.progress import progress_on
 from missions.report import PACKAGES, check_files, make_report, publish, versions
-from missions.tlog import tlogs
+from missions.tlog import Tlog, tlogs
 from vehicle_sim.autopilot import SimulatedVehicle
 
 if TYPE_CHECKING:
@@ -97,8 +97,9 @@ def _fly(flight: Flight, metrics: Metrics, request: StopRequest, console: Consol
             stack.enter_context(open_ground_link(url, _simulated(flight), option="--gcs", key=options.gcs_key))
             for url in options.gcs
         ]
+        logs: Sequence[Tlog] = ()
         if options.tlog is not None:
-            stack.enter_context(tlogs(options.tlog, flight.crew, began_unix_s=time.time()))
+            logs = stack.enter_context(tlogs(options.tlog, flight.crew, began_unix_s=time.time()))
         observers: list[Observer] = [*links, metrics]
         if mission.in_real_time:
             observers.append(EventLog(console))
@@ -124,6 +125,7 @@ def _fly(flight: Flight, metrics: Metrics, request: StopRequest, console: Consol
             flight.run(pace=pace_of(mission, options.speed), observers=observers, stop=lambda: request.asked)
         finally:
             kept = recorder is None or _closed(recorder, metrics, flight)
+            kept = _logged(logs, metrics, flight) and kept
         for link in links:
             console.print(str(link), soft_wrap=True, markup=False)
     return kept
@@ -144,6 +146,16 @@ def _closed(recorder: Recorder, metrics: Metrics, flight: Flight) -> bool:
     if recorder.dropped:
         metrics.fault(flight.clock_s, None, f"the recorder was too slow: {recorder.dropped} ticks are missing")
     return True
+
+
+def _logged(logs: Sequence[Tlog], metrics: Metrics, flight: Flight) -> bool:
+    """Close the logs; what could not be kept is a fault of the mission's, not its end."""
+    for log in logs:
+        log.close()
+    failures = {str(log.failure) for log in logs if log.failure is not None}
+    for failure in sorted(failures):
+        metrics.fault(flight.clock_s, None, f"the telemetry logs are not whole: {failure}")
+    return not failures
 
 
 def pace_of(mission: Mission, speed: float) -> Pace:

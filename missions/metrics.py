@@ -85,6 +85,7 @@ class Metrics:
             self.coverage.add(
                 seen=sum(target.seen for target in observation.targets),
                 present=sum(target.present for target in observation.targets),
+                tick=observation.mission_tick,
             )
             before = self._before if self._on_duty_before else ()
             _count_tags(self.events, _owners(before), _owners(observation.statuses))

@@ -26,6 +26,9 @@ class Tlog:
 
     Args:
         file: open for writing bytes. began_unix_s: the wall clock when the mission clock was 0.
+
+    Attributes:
+        failure: why it keeps nothing any more, such as a full disk. A log never ends a flight.
     """
 
     def __init__(self, file: BinaryIO, *, began_unix_s: float) -> None:
@@ -33,12 +36,27 @@ class Tlog:
         self._began_us = round(began_unix_s * 1e6)
         self._rests = [b"", b""]  # frames begun: the vehicle's, the agent's
         self._flush_at_s = FLUSH_S
+        self.failure: OSError | None = None
 
     def pass_on(self, now_s: float, heard: bytes, said: bytes) -> None:
         """Keep what the vehicle has said until `now_s` on the mission clock, and what its agent said then.
 
         A frame that is not whole waits for its end; what is no frame is left out, for a log has no place for it.
         """
+        if self.failure is None:
+            try:
+                self._keep(now_s, heard, said)
+            except OSError as error:
+                self.failure = error
+
+    def close(self) -> None:
+        """Close the file."""
+        try:
+            self._file.close()
+        except OSError as error:
+            self.failure = self.failure or error
+
+    def _keep(self, now_s: float, heard: bytes, said: bytes) -> None:
         stamp = _STAMP.pack(self._began_us + round(now_s * 1e6))
         for side, data in enumerate((heard, said)):
             if data:
@@ -50,20 +68,23 @@ class Tlog:
 
 
 @contextmanager
-def tlogs(folder: Path, sides: Sequence[AgentSide], *, began_unix_s: float) -> Iterator[None]:
+def tlogs(folder: Path, sides: Sequence[AgentSide], *, began_unix_s: float) -> Iterator[Sequence[Tlog]]:
     """Keep a log of each agent's link in `folder`, `agent-3.tlog` for agent 3; older ones are replaced.
 
     Raises:
         InputError: they cannot be written there.
     """
+    logs: list[Tlog] = []
     with ExitStack() as stack:
         try:
             folder.mkdir(parents=True, exist_ok=True)
             for side in sides:
-                file = stack.enter_context((folder / f"agent-{side.uid}.tlog").open("wb"))
-                side.tap = Tlog(file, began_unix_s=began_unix_s).pass_on
+                log = Tlog((folder / f"agent-{side.uid}.tlog").open("wb"), began_unix_s=began_unix_s)
+                stack.callback(log.close)
+                side.tap = log.pass_on
+                logs.append(log)
         except OSError as error:
             raise InputError(
                 f"--tlog: got {folder}; allowed: a folder that can be written ({error.strerror})"
             ) from error
-        yield
+        yield logs

@@ -30,7 +30,10 @@ _WHOLE, _REAL, _TEXT = pa.int64(), pa.float64(), pa.string()
 
 
 class Ledger:
-    """Phase, duties, tags, calls, and which targets are there and seen: when they change. Totals: at every tick."""
+    """Phase, duties, tags, calls, and which targets are there and seen: when they change.
+
+    Totals at every tick, whether somebody sends or not: they are what says that there was a tick.
+    """
 
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
@@ -49,7 +52,7 @@ class Ledger:
             CALLS, block, _calls, {"agent": _WHOLE, "target": _WHOLE, "urgent": _WHOLE, "loss_in_s": _REAL}, keys=3
         )
         yield self._table(TARGETS, block, _targets, {"present": _WHOLE, "seen": _WHOLE})
-        yield self._table(TOTALS, block, _totals, {"total": _WHOLE})
+        yield _rows(TOTALS, block, [_totals(seen) for seen in block.observations], {"total": _WHOLE})
 
     def _table(
         self,
@@ -60,7 +63,7 @@ class Ledger:
         *,
         keys: int | None = None,
     ) -> Rows:
-        """A row for each tick at which an entry changed in its first `keys` values (default: all); a column a value."""
+        """A row for each tick at which an entry changed in its first `keys` values (default: all)."""
         changed, rows = [], []
         for seen in block.observations:
             entries = entries_of(seen)
@@ -69,12 +72,17 @@ class Ledger:
                 self._last[path] = key
                 changed.append(seen)
                 rows.append(entries)
-        arrays = {
-            name: pa.array([entry[place] for row in rows for entry in row], kind)
-            for place, (name, kind) in enumerate(types.items())
-        }
-        columns = rr.AnyValues.columns(drop_untyped_nones=False, **arrays)
-        return Rows(path, Block(self._scene, changed), columns.partition([len(row) for row in rows]))
+        return _rows(path, Block(self._scene, changed), rows, types)
+
+
+def _rows(path: str, block: Block, rows: Sequence[Sequence[Values]], types: dict[str, pa.DataType]) -> Rows:
+    """A row of entries for each tick of `block`; a column a value."""
+    arrays = {
+        name: pa.array([entry[place] for row in rows for entry in row], kind)
+        for place, (name, kind) in enumerate(types.items())
+    }
+    columns = rr.AnyValues.columns(drop_untyped_nones=False, **arrays)
+    return Rows(path, block, columns.partition([len(row) for row in rows]))
 
 
 def _phase(seen: Observation) -> Sequence[Values]:

@@ -22,8 +22,9 @@ from missions.recording.texts import Said, Texts
 from swarm_agent.autopilot.flavors import ARDUPILOT, FLAVORS
 
 WALL_LINE = "wall_clock"
-_GROUND_STATIONS = range(240, 256)  # ids that ground stations take: what they say is kept, and is no vehicle's
+_GROUND_STATION = 255  # what it says is kept, and is no vehicle's; vehicles of large swarms go up to 250
 _LEVELS = ("CRITICAL", "CRITICAL", "CRITICAL", "ERROR", "WARN", "INFO", "INFO", "DEBUG")  # by MAV_SEVERITY
+_NO_AUTOPILOT = 8  # MAV_AUTOPILOT_INVALID
 _VEHICLE = "V"
 _ARMED = 128  # MAV_MODE_FLAG_SAFETY_ARMED
 
@@ -103,7 +104,6 @@ class Logbook:
 
     def _vehicle(self, vehicle: str, kind: str, told: _Told) -> None:
         if kind == "HEARTBEAT":
-            self.vehicles.add(vehicle)
             self._lane(vehicle, told)
         elif kind == "STATUSTEXT":
             self._words(vehicle, told)
@@ -154,9 +154,12 @@ class Logbook:
         self._send(f"/world/{vehicle}", times_s, rr.Points3D.columns(positions=places))
 
     def _lane(self, vehicle: str, told: _Told) -> None:
-        """A lane of flight modes, recorded when they change."""
+        """A lane of flight modes, recorded when they change. A ground station's heartbeat has none."""
         changed, states = [], []
         for row, message in enumerate(told.messages):
+            if message.autopilot == _NO_AUTOPILOT:
+                continue
+            self.vehicles.add(vehicle)
             state = _mode(message)
             if self._modes.get(vehicle) != state:
                 self._modes[vehicle] = state
@@ -186,11 +189,9 @@ class Logbook:
 
 
 def _sender(message: Message) -> str:
-    """V7 is the autopilot of system 7, S255 a ground station or a part beside the autopilot."""
+    """V7 is the autopilot of system 7, S255-190 a ground station or a part beside the autopilot."""
     system, component = message.get_srcSystem(), message.get_srcComponent()
-    if component == 1 and system not in _GROUND_STATIONS:
-        return f"{_VEHICLE}{system}"
-    return f"S{system}-{component}"
+    return f"{_VEHICLE}{system}" if component == 1 and system != _GROUND_STATION else f"S{system}-{component}"
 
 
 def _color(vehicle: str) -> int:

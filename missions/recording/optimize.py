@@ -29,21 +29,33 @@ def rerun_command() -> list[str]:
     return [sys.executable, "-m", "rerun_cli"]
 
 
-def optimize(source: Path, destination: Path) -> None:
-    """Write a compacted, indexed copy of `source` to `destination`, whole or not at all.
-
-    Repairs a recording whose writer was killed, too: a torn last message is left out.
+def repair(source: Path, destination: Path) -> None:
+    """Write what can be read of a recording to `destination`: its writer was killed, or its disk is bad.
 
     Raises:
-        RuntimeError: rerun's tool is missing or refused, with the last it said.
+        RuntimeError: rerun's tool is missing or refused, with what it said.
+    """
+    optimize(source, destination, "--continue-on-error")
+
+
+def optimize(source: Path, destination: Path, *options: str) -> None:
+    """Write a compacted, indexed copy of `source` to `destination`, whole or not at all; they may be the same.
+
+    Raises:
+        RuntimeError: rerun's tool is missing or refused, with what it said.
     """
     unfinished = destination.with_name(destination.name + ".tmp")
-    command = [*rerun_command(), "rrd", "optimize", str(source), "-o", str(unfinished)]
+    command = [*rerun_command(), "rrd", "optimize", *options, str(source), "-o", str(unfinished)]
     try:
         subprocess.run(command, check=True, capture_output=True, text=True, timeout=_TIMEOUT_S)
         os.replace(unfinished, destination)
     except (OSError, subprocess.SubprocessError) as error:
-        said = (getattr(error, "stderr", None) or str(error)).strip().splitlines()
-        raise RuntimeError(f"cannot optimize {source}: {said[-1]}") from error
+        raise RuntimeError(f"cannot optimize {source}: {_reason(error)}") from error
     finally:
         unfinished.unlink(missing_ok=True)
+
+
+def _reason(error: Exception) -> str:
+    """The tool's own word on it; around that it tells where to report bugs."""
+    lines = (getattr(error, "stderr", None) or str(error)).strip().splitlines()
+    return next((line for line in lines if line.startswith("Error")), lines[-1] if lines else str(error))

@@ -52,7 +52,7 @@ class Playback:
 
     Attributes:
         facts: what flew. mission_yaml: the whole mission, every key written out.
-        observations: in the order of ticks. ticks_missing: ticks between the first and the last that are not there.
+        observations: in the order of ticks. ticks_missing: ticks before the last that are not there.
         pages: what an agent knew, wanted and why, as Markdown: by uid, pairs of tick and page, in order.
         torn: the recording was never finished; it was repaired to be read.
     """
@@ -109,7 +109,7 @@ def _played(path: Path, table: Table, *, torn: bool) -> Playback:
         facts=facts,
         mission_yaml=mission["yaml"],
         observations=observations,
-        ticks_missing=ticks[-1] - ticks[0] + 1 - len(ticks) if ticks else 0,
+        ticks_missing=ticks[-1] + 1 - len(ticks),
         pages={uid: _pages(table, name) for uid, name in enumerate(agent_names(facts.agents))},
         torn=torn,
     )

@@ -11,7 +11,7 @@ from tempfile import TemporaryDirectory
 from rerun.chunk import RrdReader
 
 from missions.problems import InputError
-from missions.recording.optimize import optimize
+from missions.recording.optimize import repair
 from missions.recording.parts import parts_of
 
 
@@ -40,7 +40,7 @@ def _readable(path: Path, folder: Path, *, needed: bool) -> Path | None:
         return path
     copy = folder / path.name
     try:
-        optimize(path, copy)
+        repair(path, copy)
     except RuntimeError as error:
         if not needed:
             return None
@@ -49,10 +49,11 @@ def _readable(path: Path, folder: Path, *, needed: bool) -> Path | None:
 
 
 def _is_whole(path: Path) -> bool:
-    """Whether it has the index that is written last."""
+    """Whether it has the index that is written last, and all that the index speaks of can be read."""
     try:
         with warnings.catch_warnings(action="ignore"):
-            RrdReader(path).store()
+            for _ in RrdReader(path).store().stream():
+                pass
     except (RuntimeError, ValueError):
         return False
     return True

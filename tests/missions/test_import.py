@@ -121,6 +121,28 @@ def test_modes_have_the_names_of_their_vehicle(
     assert _column(out, "/vehicles/V1/mode", "StateChange:state") == [[f"{name}, disarmed"]]
 
 
+@pytest.mark.parametrize(
+    ("system", "autopilot", "who"), [(1, 3, "V1"), (245, 3, "V245"), (245, 8, "no vehicle"), (255, 8, "no vehicle")]
+)
+def test_a_vehicle_is_who_has_an_autopilot(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], system: int, autopilot: int, who: str
+) -> None:
+    heartbeat = dialect.MAVLink_heartbeat_message(6 if autopilot == 8 else 2, autopilot, 81, 4, 3, 3)
+    (tmp_path / "a.tlog").write_bytes(_entry(heartbeat, system=system))
+    assert main(["import", str(tmp_path / "a.tlog"), "--to", str(tmp_path / "out.rrd")]) == 0
+    assert f"out.rrd: {who}, 1 messages" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("to", ["a.tlog", "b.tlog", "out.png"])
+def test_a_log_is_never_replaced_by_its_recording(tmp_path: Path, capsys: pytest.CaptureFixture[str], to: str) -> None:
+    log = tmp_path / "a.tlog"
+    log.write_bytes(_entry(HEARTBEAT))
+    assert main(["import", str(log), "--to", str(tmp_path / to)]) == 2
+    assert "a file that ends with .rrd, and is none of the logs" in capsys.readouterr().err
+    assert [path.name for path in tmp_path.iterdir()] == ["a.tlog"]
+    assert log.read_bytes() == _entry(HEARTBEAT)
+
+
 A, B, C = "a" * 50, "b" * 50, "c" * 20
 
 

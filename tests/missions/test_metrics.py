@@ -50,6 +50,15 @@ def test_coverage_divides_sums_where_targets_come_and_go() -> None:
     assert coverage.now is None
 
 
+def test_coverage_between_ticks_of_the_mission_whatever_is_missing() -> None:
+    coverage = Coverage()
+    for tick in (0, 1, 4, 5):
+        coverage.add(seen=tick, present=10, tick=tick)
+    assert coverage.between(0, 2) == 1 / 20
+    assert coverage.between(2, 4) is None
+    assert coverage.between(2, 6) == 9 / 20
+
+
 def test_definition_7() -> None:
     metrics = fly(
         (status(0, 1, 2), status(1)),  # two discoveries

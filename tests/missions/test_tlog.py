@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import io
+import json
+import resource
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -47,6 +50,32 @@ def test_a_frame_cut_in_two_is_whole_in_the_log(tmp_path: Path, cut: int) -> Non
         log.pass_on(0.0, wire[:cut], b"")
         log.pass_on(0.1, wire[cut:], _wire(HEARTBEAT))
     assert [kind for _, kind in _read(path)] == ["HEARTBEAT", "SYSTEM_TIME", "HEARTBEAT"]
+
+
+def test_a_full_disk_ends_the_log_and_not_the_flight() -> None:
+    with open("/dev/full", "wb") as file:
+        log = Tlog(file, began_unix_s=BEGAN_UNIX_S)
+        for tick in range(50):
+            log.pass_on(tick / 10, _wire(HEARTBEAT), _wire(TIME))
+        assert log.failure is not None
+        assert "No space left" in str(log.failure)
+        log.close()
+
+
+@pytest.mark.skipif(not hasattr(resource, "RLIMIT_FSIZE"), reason="needs a limit of a file's size")
+def test_a_flight_whose_log_cannot_grow_comes_home_and_says_so(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "missions.cli", "launch", "narrow", "--duration", "5", "--set", "agents.count=2"]
+    command += ["--tlog", str(tmp_path / "logs"), "--report", "-"]
+
+    def limit() -> None:
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
+
+    run = subprocess.run(command, capture_output=True, text=True, timeout=120, preexec_fn=limit)
+    assert run.returncode == 1
+    report = json.loads(run.stdout)
+    assert report["duration_s"] == 5.0
+    assert ["the telemetry logs are not whole" in fault["what"] for fault in report["faults"]] == [True]
 
 
 def test_times_are_those_of_the_mission_clock(tmp_path: Path) -> None:

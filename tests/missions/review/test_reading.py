@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -124,6 +125,37 @@ def test_a_torn_recording_is_repaired_to_be_read_and_left_as_it_is(tmp_path: Pat
     assert 400 - 50 - 3 * 10 <= playback.observations[-1].tick + 1 < 400
     assert playback.ticks_missing == 0
     assert torn.read_bytes() == before
+
+
+def test_ticks_in_which_nobody_sends_are_ticks(tmp_path: Path) -> None:
+    scene = toy_scene()
+    seen = list(toy_observations(scene, ticks=120))
+    silent = [replace(one, totals=seen[60].totals) if one.tick > 60 else one for one in seen]
+    with Recorder(tmp_path / "toy.rrd", scene=scene) as recorder:
+        for one in silent:
+            recorder.observe(one)
+    assert [one.tick for one in play_back(tmp_path / "toy.rrd").observations] == list(range(120))
+
+
+def test_a_recorder_that_came_late_or_dropped_ticks_says_so(tmp_path: Path) -> None:
+    scene = toy_scene()
+    with Recorder(tmp_path / "toy.rrd", scene=scene) as recorder:
+        for one in toy_observations(scene, ticks=120):
+            if one.tick >= 20 and one.tick not in range(50, 57):
+                recorder.observe(one)
+    assert play_back(tmp_path / "toy.rrd").ticks_missing == 27
+
+
+@pytest.mark.parametrize("where", [0.3, 0.6, 0.9])
+def test_a_bad_byte_costs_little_of_a_recording(tmp_path: Path, where: float) -> None:
+    scene, path = toy_scene(), tmp_path / "toy.rrd"
+    with Recorder(path, scene=scene) as recorder:
+        for one in toy_observations(scene, ticks=120):
+            recorder.observe(one)
+        unfinished = bytearray((tmp_path / "toy.rrd.part").read_bytes())
+    unfinished[round(where * len(unfinished))] ^= 0x55
+    (tmp_path / "bad.rrd.part").write_bytes(unfinished)
+    assert len(play_back(tmp_path / "bad.rrd.part").observations) > 0
 
 
 @pytest.mark.parametrize("content", [b"", b"no recording", b"RRF2" + bytes(200)])
