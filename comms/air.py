@@ -5,7 +5,6 @@ Range is thus a fact of the world, not a promise of the receiver: an agent canno
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -16,8 +15,7 @@ from comms.codec import MAX_FRAME_BYTES
 from comms.disturbance import CALM, Disturbance
 from comms.keys import Keys, sender
 from comms.session import Bus
-
-MAX_SPOKEN_PER_AGENT = 64  # frames in a tick; beyond it the oldest go
+from comms.turns import Turns
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,7 +31,7 @@ class LinkModel:
 class AirCount:
     """What happened to frames so far, counted per frame (sent, bytes, refused) and per frame and receiver (the rest).
 
-    refused: nobody of this mission spoke it, or it is too long to be a frame.
+    refused: nobody of this mission spoke it, it is too long to be a frame, or its speaker says too many.
     """
 
     sent: int = 0
@@ -60,7 +58,7 @@ class Air:
         self._tick_s = tick_s
         self._delay_ticks = link.delay_ticks(model.latency_s, tick_s)
         # Frames may come from another thread while others are carried.
-        self._spoken: deque[tuple[int, bytes]] = deque(maxlen=MAX_SPOKEN_PER_AGENT * n_agents)
+        self._spoken = Turns(n_agents)
         self._under_way: dict[int, list[tuple[int, int, bytes]]] = {}  # by due tick: (dst, src, payload)
         self._puts = [bus.publisher(keys.rx(uid)) for uid in range(n_agents)]
         self.count = AirCount()
@@ -71,15 +69,13 @@ class Air:
 
     @property
     def waiting(self) -> int:
-        """How many frames have been spoken and were not carried yet."""
-        return len(self._spoken)
+        """How many agents have spoken what was not carried yet."""
+        return self._spoken.senders
 
     def _hear(self, key: str, payload: bytes) -> None:
         src = sender(key)
-        if src is None or src >= self._n_agents or len(payload) > MAX_FRAME_BYTES:
+        if len(payload) > MAX_FRAME_BYTES or not self._spoken.put(src, payload):
             self.count.refused += 1
-            return
-        self._spoken.append((src, payload))
 
     def carry(self, tick: int, positions_m: Sequence[tuple[float, float]], disturbance: Disturbance = CALM) -> int:
         """Deliver what must be heard at tick + 1. Returns the number of deliveries.
@@ -91,10 +87,8 @@ class Air:
         """
         range_m, count = self._model.range_m, self.count
         broken: list[tuple[int, int]] = []
-        spoken = [self._spoken.popleft() for _ in range(len(self._spoken))]
-        spoken.sort(key=lambda frame: frame[0])
         cells = Cells(positions_m, range_m=range_m)
-        for src, payload in spoken:
+        for src, payload in self._spoken.take():
             count.sent += 1
             count.bytes += len(payload)
             x, y = positions_m[src]

@@ -6,13 +6,13 @@ the rest waits for its next one. So a mission in lockstep goes the same way whoe
 
 from __future__ import annotations
 
-from collections import deque
+from math import inf
 
-from comms.bundle import Heard
 from comms.keys import Keys, sender
 from comms.messages import Frame
-from comms.radio import ANYBODY, EARLY_S, MAX_WAITING, NOISE, Radio, Roster, decode_once, kept
+from comms.radio import EARLY_S, Radio, Roster, decode_once, kept
 from comms.session import Bus
+from comms.turns import Turns
 
 _SAME_S = 0.001  # frames tell their time to the millisecond
 
@@ -20,9 +20,9 @@ _SAME_S = 0.001  # frames tell their time to the millisecond
 class FieldRadio(Radio):
     """Agent `uid`'s radio where all hear each other: it takes what its mates say, and not what it says itself."""
 
-    def __init__(self, bus: Bus, *, keys: Keys, uid: int, roster: Roster = ANYBODY) -> None:
-        self._said: deque[Heard] = deque(maxlen=MAX_WAITING)
-        super().__init__(bus, keys=keys, uid=uid, roster=roster)
+    def __init__(self, bus: Bus, *, keys: Keys, uid: int, roster: Roster, ttl_s: float = inf) -> None:
+        self._said = Turns(roster.n_agents)
+        super().__init__(bus, keys=keys, uid=uid, roster=roster, ttl_s=ttl_s)
 
     def waiting(self, now_s: float) -> int:
         """How many frames have arrived that can be heard by now, and were not drained yet."""
@@ -44,15 +44,16 @@ class FieldRadio(Radio):
 
     def _hear(self, key: str, payload: bytes) -> None:
         src = sender(key)
-        if src != self.uid:
-            self._said.append(NOISE if src is None else (src, kept(payload)))
+        if src != self.uid and not self._said.put(src, kept(payload)):
+            self.count.strange += 1
 
     def _settle(self, now_s: float) -> None:
         """Let arrive what was sent before now; what is of this tick, or of a clock that is ahead, waits."""
-        for _ in range(len(self._said)):
-            src, payload = self._said.popleft()
-            queue = self._said if _is_ahead(payload, now_s) else self._arrived
-            queue.append((src, payload))
+        for src, payload in self._said.take():
+            if _is_ahead(payload, now_s):
+                self._said.put(src, payload)
+            else:
+                self._arrived.append((src, payload))
 
 
 def _is_ahead(payload: bytes, now_s: float) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from dataclasses import dataclass
 from functools import lru_cache
+from math import inf
 from typing import NamedTuple
 
 from comms import codec
@@ -50,8 +51,8 @@ class RadioCount:
     bytes: int = 0
     accepted: int = 0
     bad: int = 0  # not a frame, or not of whom the air has heard it
-    strange: int = 0  # of an agent, or about a target, that the mission does not have
-    stale: int = 0  # older than its own time to live
+    strange: int = 0  # of an agent, or about a target, that the mission does not have; or one of too many at once
+    stale: int = 0  # older than its own time to live, or the mission's
     early: int = 0  # from the future: what it claims would hold until then
     replayed: int = 0  # sequence number not above the last one heard from that sender
 
@@ -65,12 +66,13 @@ class Radio:
     """Agent `uid`'s radio on a bus: `send` a frame, `drain` what has arrived.
 
     Args:
-        roster: who can be heard, and heard of.
+        roster: who can be heard, and heard of. ttl_s: nothing older is believed, whatever its speaker says.
     """
 
-    def __init__(self, bus: Bus, *, keys: Keys, uid: int, roster: Roster = ANYBODY) -> None:
+    def __init__(self, bus: Bus, *, keys: Keys, uid: int, roster: Roster = ANYBODY, ttl_s: float = inf) -> None:
         self.uid = uid
         self._roster = roster
+        self._ttl_s = ttl_s
         self._put = bus.publisher(keys.tx(uid))
         self._arrived: deque[Heard] = deque(maxlen=MAX_WAITING)
         self._last_seq: dict[int, int] = {}
@@ -103,7 +105,7 @@ class Radio:
                 self.count.bad += 1
             elif not self._roster.has_all_of(frame):
                 self.count.strange += 1
-            elif now_s - frame.sent_at_s > frame.ttl_s:
+            elif now_s - frame.sent_at_s > min(frame.ttl_s, self._ttl_s):
                 self.count.stale += 1
             elif frame.sent_at_s - now_s > EARLY_S:
                 self.count.early += 1

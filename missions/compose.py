@@ -143,7 +143,6 @@ def agents(mission: Mission, uids: Iterable[int], n_targets: int) -> list[Agent]
     """These agents of a mission."""
     shared, around = params(mission), fence(mission)
     firsts = headings(mission)
-    ttl_s = mission.radio.latency_s + FRAME_LIVES_TICKS * mission.tick_s
     return [
         Agent(
             AgentConfig(
@@ -153,7 +152,7 @@ def agents(mission: Mission, uids: Iterable[int], n_targets: int) -> list[Agent]
                 n_agents=mission.agents.count,
                 n_targets=n_targets,
                 heading=firsts[uid],
-                ttl_s=ttl_s,
+                ttl_s=ttl_s(mission),
                 radio_range_m=mission.radio.range_m,
                 pilot=PilotConfig(
                     uid=uid,
@@ -269,7 +268,12 @@ def radios(mission: Mission, bus: Bus, uids: Iterable[int], n_targets: int) -> l
     """The radios of these agents."""
     roster = Roster(mission.agents.count, n_targets)
     kind, keys = FieldRadio if mission.radio.mode == "field" else Radio, Keys(mission.name)
-    return [kind(bus, keys=keys, uid=uid, roster=roster) for uid in uids]
+    return [kind(bus, keys=keys, uid=uid, roster=roster, ttl_s=ttl_s(mission)) for uid in uids]
+
+
+def ttl_s(mission: Mission) -> float:
+    """How long a frame is worth hearing after it was sent."""
+    return mission.radio.latency_s + FRAME_LIVES_TICKS * mission.tick_s
 
 
 def medium(mission: Mission, bus: Bus) -> Medium:

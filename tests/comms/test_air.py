@@ -14,6 +14,7 @@ from comms.link import delay_ticks, survives
 from comms.messages import Answer, Frame, HelpCall, Tag
 from comms.radio import Radio, Roster
 from comms.session import Bus, open_local_bus
+from comms.turns import MAX_EACH
 
 KEYS = Keys("test")
 
@@ -226,3 +227,17 @@ def test_keys_round_trip() -> None:
 def test_a_mission_name_must_be_one_chunk(name: str) -> None:
     with pytest.raises(ValueError, match="not usable in a key"):
         Keys(name)
+
+
+def test_who_says_too_much_pushes_out_nobody_else(bus: Bus) -> None:
+    air, radios = swarm(bus, 3)
+    for uid in (0, 1):
+        radios[uid].send(frame(uid))
+    put = bus.publisher(KEYS.tx(2))
+    for seq in range(1000):
+        put(encode(frame(2, seq=seq)))
+    assert air.waiting == 3
+    air.carry(0, [(0.0, 0.0)] * 3)
+    last = list(range(1000 - MAX_EACH, 1000))
+    assert [(heard.src, heard.seq) for heard in radios[0].drain(0.1)] == [(1, 1), *((2, seq) for seq in last)]
+    assert air.count.refused == 1000 - MAX_EACH

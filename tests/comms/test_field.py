@@ -8,15 +8,16 @@ from time import monotonic, sleep
 
 import pytest
 
-from comms import radio as plain
 from comms.codec import encode
 from comms.field import FieldRadio
 from comms.keys import Keys
 from comms.messages import Frame
+from comms.radio import Radio, Roster
 from comms.session import Bus, BusError, open_local_bus, open_peer
+from comms.turns import MAX_EACH
 from tests.missions.daemons.swarm import PATIENCE_S, free_endpoint
 
-KEYS = Keys("test")
+KEYS, ROSTER = Keys("test"), Roster(n_agents=3)
 
 
 @pytest.fixture
@@ -30,10 +31,10 @@ def frame(src: int, seq: int = 1, sent_at_s: float = 0.0) -> Frame:
 
 
 def radios_on(bus: Bus, n: int) -> list[FieldRadio]:
-    return [FieldRadio(bus, keys=KEYS, uid=uid) for uid in range(n)]
+    return [FieldRadio(bus, keys=KEYS, uid=uid, roster=ROSTER) for uid in range(n)]
 
 
-def heard(radio: plain.Radio, now_s: float) -> list[tuple[int, int]]:
+def heard(radio: Radio, now_s: float) -> list[tuple[int, int]]:
     return [(frame.src, frame.seq) for frame in radio.drain(now_s)]
 
 
@@ -82,15 +83,15 @@ def test_who_is_switched_off_forgets_what_was_and_not_what_is_being_said(bus: Bu
         (1, encode(frame(1, seq=7, sent_at_s=9.4)), "stale"),
         (1, encode(frame(1, seq=7, sent_at_s=10.501)), "early"),
         (1, encode(frame(1, seq=5, sent_at_s=9.9)), "replayed"),
+        (3, encode(frame(3, seq=7, sent_at_s=9.9)), "strange"),
     ],
-    ids=["of somebody else", "no frame", "too long", "of the past", "of the future", "replayed"],
+    ids=["of somebody else", "no frame", "too long", "of the past", "of the future", "replayed", "of a stranger"],
 )
 def test_a_hostile_frame_is_counted_and_changes_nothing(bus: Bus, src: int, wire: bytes, reason: str) -> None:
     [radio] = radios_on(bus, 1)
-    put = bus.publisher(KEYS.tx(src))
-    put(encode(frame(src, seq=5, sent_at_s=9.8)))
+    bus.publisher(KEYS.tx(1))(encode(frame(1, seq=5, sent_at_s=9.8)))
     assert len(radio.drain(10.0)) == 1
-    put(wire)
+    bus.publisher(KEYS.tx(src))(wire)
     assert radio.drain(10.0) == []
     assert (getattr(radio.count, reason), radio.count.refused) == (1, 1)
 
@@ -102,23 +103,36 @@ def test_a_clock_that_is_ahead_is_heard_when_ours_gets_there(bus: Bus) -> None:
     assert radio.count.refused == 0
 
 
-def test_who_shouts_of_the_future_does_not_fill_the_memory(bus: Bus) -> None:
-    [radio] = radios_on(bus, 1)
+@pytest.mark.parametrize("sent_at_s", [0.0, 0.1, 0.4], ids=["before", "now", "of the future"])
+def test_who_shouts_pushes_out_nobody_else(bus: Bus, sent_at_s: float) -> None:
+    radio, mate, _ = radios_on(bus, 3)
+    mate.send(frame(1, sent_at_s=0.0))
+    put = bus.publisher(KEYS.tx(2))
+    for seq in range(10_000):
+        put(encode(frame(2, seq=seq, sent_at_s=sent_at_s)))
+    last = [(2, seq) for seq in range(10_000 - MAX_EACH, 10_000)]
+    assert heard(radio, 0.1) == [(1, 1), *(last if sent_at_s == 0.0 else [])]
+    assert radio.count.refused == 10_000 - MAX_EACH
+    assert heard(radio, 0.5) == (last if sent_at_s else [])
+
+
+def test_what_is_old_by_the_mission_is_not_believed_whatever_it_says_itself(bus: Bus) -> None:
+    radio = FieldRadio(bus, keys=KEYS, uid=0, roster=ROSTER, ttl_s=0.5)
     put = bus.publisher(KEYS.tx(1))
-    for seq in range(plain.MAX_WAITING + 100):
-        put(encode(frame(1, seq=seq, sent_at_s=0.3)))
-    assert radio.waiting(0.0) == 0
-    assert radio.waiting(1.0) == plain.MAX_WAITING
+    for age_s in (0.6, 0.4):
+        put(encode(frame(1, seq=1, sent_at_s=100.0 - age_s)._replace(ttl_s=3600.0)))
+    assert heard(radio, 100.0) == [(1, 1)]
+    assert radio.count.stale == 1
 
 
 def test_peers_hear_each_other_directly_whoever_comes_late_or_again() -> None:
     endpoints = sorted(free_endpoint() for _ in range(3))
     with ExitStack() as stack:
         buses = [stack.enter_context(open_peer(endpoints[uid], endpoints[:uid])) for uid in (0, 1)]
-        radios = [FieldRadio(bus, keys=KEYS, uid=uid) for uid, bus in enumerate(buses)]
+        radios = [FieldRadio(bus, keys=KEYS, uid=uid, roster=ROSTER) for uid, bus in enumerate(buses)]
         for life in range(2):  # the third comes late, goes, and comes back
             with open_peer(endpoints[2], endpoints[:2]) as bus:
-                third = FieldRadio(bus, keys=KEYS, uid=2)
+                third = FieldRadio(bus, keys=KEYS, uid=2, roster=ROSTER)
                 said = 1000 * life
 
                 def all_hear(third: FieldRadio = third) -> bool:

@@ -17,6 +17,7 @@ from comms.credentials import Credentials, agents_name
 from comms.field import FieldRadio
 from comms.keys import Keys
 from comms.messages import Frame
+from comms.radio import Roster
 from comms.session import BusError, Network, open_client, open_peer, open_router
 from missions.cli import main
 from tests.missions.daemons.swarm import PATIENCE_S, SMALL, free_endpoint, swarm
@@ -124,7 +125,7 @@ def test_a_radios_key_does_not_make_a_world(folder: Path) -> None:
 
 
 def test_whose_frame_names_another_sender_is_not_believed(net: Radios) -> None:
-    victim, thief = FieldRadio(net.open(0), keys=KEYS, uid=0), net.open(1)
+    victim, thief = FieldRadio(net.open(0), keys=KEYS, uid=0, roster=Roster(n_agents=3)), net.open(1)
     put, seq = thief.publisher(KEYS.tx(1)), 0
 
     def speak() -> bool:
