@@ -10,8 +10,8 @@ from rich.console import Console, Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from comms.status import Activity
-from missions.colors import ACTIVITY_COLORS, ACTIVITY_INKS, hex_color
+from comms.status import Activity, Level
+from missions.colors import ACTIVITY_COLORS, ACTIVITY_INKS, LEVEL_INKS, hex_color
 from missions.review.calls import Fate
 from missions.review.highlights import LONG_S, Highlight, highlights, told
 from missions.review.losses import longest
@@ -31,6 +31,7 @@ _FATES = {
 }
 _SHOWN_LOSSES, _SHOWN_FAULTS = 12, 12
 _GOOD, _BAD, _DIM = hex_color(ACTIVITY_INKS[Activity.FOLLOW]), hex_color(ACTIVITY_INKS[Activity.LOST]), "dim"
+_WARN = hex_color(LEVEL_INKS[Level.WARNING])
 
 
 def print_summary(review: Review, console: Console) -> None:
@@ -40,7 +41,7 @@ def print_summary(review: Review, console: Console) -> None:
 
 def _parts(review: Review) -> Iterable[RenderableType]:
     yield _title(review)
-    yield from (Text(note, "yellow") for note in review.notes)
+    yield from (Text(note, _WARN) for note in review.notes)
     yield Text()
     if found := highlights(review):
         yield _highlights(found)
