@@ -5,8 +5,8 @@ BIN := $(VENV)/bin
 PEERS := .venv-peers
 CLIENTS := .venv-clients
 
-.PHONY: run test test-slow test-network test-clients fuzz check format bench bench-processes bench-scale bench-vehicles bench-recording \
-	pictures bench-peers clean
+.PHONY: run test test-slow test-network test-clients fuzz check format bench bench-processes bench-kills bench-scale \
+	bench-vehicles bench-recording pictures bench-peers clean
 
 run: $(VENV)/ground.done
 	@mkdir -p out
@@ -51,6 +51,10 @@ bench-processes: $(VENV)/all.done
 # What an agent costs among ten, and among a thousand: four minutes.
 bench-scale: $(VENV)/all.done
 	$(BIN)/python -m tests.benchmarks.scale $(SCALE)
+
+# What a process costs that is killed or frozen, each kind in turn: five minutes. KILLS="--only recorder" for some.
+bench-kills: $(VENV)/all.done
+	$(BIN)/python -m tests.benchmarks.kills $(KILLS)
 
 bench-vehicles: $(VENV)/all.done
 	$(BIN)/python -m tests.benchmarks.vehicles

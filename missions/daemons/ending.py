@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import os
 import signal
 import sys
@@ -11,6 +12,7 @@ from contextlib import contextmanager
 from types import FrameType
 
 SIGNALS = (signal.SIGTERM, signal.SIGINT)
+PR_SET_PDEATHSIG = 1  # of Linux's prctl: which signal a process gets when who started it ends
 
 
 class Ending:
@@ -34,6 +36,7 @@ class Ending:
 
         The second signal is a KeyboardInterrupt.
         """
+        _wake_with_parent()
         before = {number: signal.signal(number, self._hear) for number in SIGNALS}
         if leash:
             threading.Thread(target=_feel, name="leash", daemon=True).start()
@@ -54,6 +57,12 @@ class Ending:
             raise KeyboardInterrupt
         self.interrupted = number == signal.SIGINT
         self.ask()
+
+
+def _wake_with_parent() -> None:
+    """Who stands still cannot notice that its launcher has ended: Linux lets it go on then, to notice. See prctl(2)."""
+    if sys.platform == "linux":
+        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGCONT)
 
 
 def _feel() -> None:

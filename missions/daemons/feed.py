@@ -86,12 +86,15 @@ class Feed:
 
     def observe(self, observation: Observation) -> None:
         """Pass it on; in lockstep wait for a recorder that is behind."""
-        if self._kept is None or self.failures:
+        if self._kept is None or self._kept.closed or self.failures:
+            return
+        if not self._there:
+            self._fail(f"the recorder has gone: nothing is recorded from {observation.time_s:.1f} s")
             return
         self._put(encode(observation))
         if self._lockstep:
             due = observation.tick - WINDOW_TICKS
-            if self._kept.tick < due and not self._wait(lambda kept: kept.tick >= due, LOST_S):
+            if self._kept.tick < due and not self._wait(lambda kept: kept.tick >= due or kept.closed, LOST_S):
                 self._fail(f"the recorder does not get on: nothing is recorded from {observation.time_s:.1f} s")
 
     def close(self) -> None:
@@ -118,6 +121,7 @@ class Feed:
     def _fail(self, why: str) -> None:
         kept = self._kept
         self.failures.append(kept.failure if kept is not None and kept.failure else why)
+        self._tell(Event(Level.ERROR, self.failures[-1]))
 
     def _hear(self, key: str, payload: bytes) -> None:
         try:
