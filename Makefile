@@ -6,7 +6,7 @@ PEERS := .venv-peers
 CLIENTS := .venv-clients
 
 .PHONY: run test test-slow test-network test-clients fuzz check format bench bench-processes bench-kills bench-scale \
-	bench-vehicles bench-recording pictures bench-peers clean
+	bench-vehicles bench-recording soak pictures bench-peers clean
 
 run: $(VENV)/ground.done
 	@mkdir -p out
@@ -55,6 +55,10 @@ bench-scale: $(VENV)/all.done
 # What a process costs that is killed or frozen, each kind in turn: five minutes. KILLS="--only recorder" for some.
 bench-kills: $(VENV)/all.done
 	$(BIN)/python -m tests.benchmarks.kills $(KILLS)
+
+# Ten daemons fly for an hour, and nothing may grow; leaves out/soak. SOAK="--minutes 3" for less.
+soak: $(VENV)/all.done
+	$(BIN)/python -m tests.benchmarks.soak $(SOAK)
 
 bench-vehicles: $(VENV)/all.done
 	$(BIN)/python -m tests.benchmarks.vehicles

@@ -85,7 +85,8 @@ class Parts:
     def begin(self) -> None:
         """Open the next part. Each can be opened without the others."""
         self._number += 1
-        self.tape = Tape(self._scene)
+        if self._number == 1:
+            self.tape = Tape(self._scene)
         self.tape.write(self.being_written, blueprint(self._scene, live=False))
         set_stage(self.tape, self._scene)
 

@@ -20,16 +20,19 @@ _SERVED = "1GiB"
 
 
 class Tape:
-    """An open stream of a recording. Used by one thread at a time."""
+    """An open stream of a recording, into one file after the other. Used by one thread at a time."""
 
     def __init__(self, scene: Scene) -> None:
         # No automatic properties: they hold the wall clock, and equal missions shall give equal recordings.
+        # One stream serves all files: rerun keeps the threads of each until the process ends. (It does so with
+        # each file's view, too: two threads.)
         self._stream = rr.RecordingStream(APPLICATION_ID, recording_id=scene.recording_id, send_properties=False)
-        self._stream.send_recording_name(scene.mission_name)
+        self._name = scene.mission_name
 
     def write(self, path: Path, blueprint: rrb.Blueprint) -> None:
         """Record into `path`, replacing it."""
         self._stream.set_sinks(rr.FileSink(path), default_blueprint=blueprint)
+        self._stream.send_recording_name(self._name)
 
     def serve(self, blueprint: rrb.Blueprint) -> str:
         """Serve the recording to viewers on this machine, late ones too, and return where.
@@ -38,6 +41,7 @@ class Tape:
         """
         server = rr.GrpcServerSink(LOOPBACK, free_port(), server_memory_limit=_SERVED)
         self._stream.set_sinks(server, default_blueprint=blueprint)
+        self._stream.send_recording_name(self._name)
         return str(server.uri)
 
     def log_static(self, path: str, *parts: rr.AsComponents) -> None:
@@ -57,7 +61,7 @@ class Tape:
         self._stream.flush(timeout_sec=_FLUSH_TIMEOUT_S)
 
     def close(self) -> None:
-        """Flush and close the stream; a file gets its index."""
+        """Flush, and close what is written now; a file gets its index."""
         try:
             self.flush()
         finally:

@@ -365,3 +365,17 @@ class TestTrouble:
         with pytest.raises(RuntimeError, match="cannot optimize"):
             optimize(tmp_path / "missing.rrd", tmp_path / "out.rrd")
         assert list(tmp_path.iterdir()) == []
+
+
+def test_a_file_more_costs_no_threads_but_those_that_rerun_keeps_of_its_view(tmp_path: Path) -> None:
+    def kept(name: str, part_s: float | None) -> int:
+        before = len(os.listdir("/proc/self/task"))
+        scene = toy_scene()
+        with Recorder(tmp_path / name, scene=scene, part_s=part_s) as recorder:
+            for seen in toy_observations(scene, ticks=60):
+                recorder.observe(seen)
+        return len(os.listdir("/proc/self/task")) - before
+
+    kept("warm-up.rrd", None)  # what rerun starts once for all
+    assert kept("long.rrd", 1.0) - kept("short.rrd", None) <= 2 * 5
+    assert len(list(tmp_path.glob("long*"))) == 6
