@@ -161,6 +161,11 @@ def _keep_quiet(error: BusError) -> None:
     """Nobody wants to know."""
 
 
+def _never() -> bool:
+    """Nobody stops it."""
+    return False
+
+
 @contextmanager
 def open_local_bus() -> Iterator[ZenohBus]:
     """One isolated session for one process: real zenoh pub/sub, no network at all, deliveries in order."""
@@ -226,14 +231,16 @@ def open_client(
     patience_s: float,
     credentials: Credentials | None = None,
     tell: Callable[[BusError], None] = _keep_quiet,
+    stop: Callable[[], bool] = _never,
 ) -> Iterator[ZenohBus]:
     """A session behind the router that listens there; after an outage it connects again by itself.
 
     Args:
         tell: hears, once and while it is still tried, that somebody is there who does not let us in.
+        stop: asked every few seconds; once true, it is not tried any longer.
 
     Raises:
-        BusError: nobody who lets us in listens there in `patience_s`.
+        BusError: nobody who lets us in listens there in `patience_s`, or until it is stopped.
     """
     deadline_s, told = monotonic() + patience_s, False
     with ExitStack() as stack:
@@ -248,7 +255,7 @@ def open_client(
                 if not refused:
                     text = f"nobody has answered on {endpoint} for {tried_s:g} s ({_reason(error)})"
                 failure = BusError(text, refused=refused)
-                if monotonic() >= deadline_s:
+                if monotonic() >= deadline_s or stop():
                     raise failure from error
                 if refused and not told:
                     told = True

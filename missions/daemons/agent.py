@@ -27,7 +27,7 @@ from missions import compose
 from missions.daemons.airwaves import open_airwaves
 from missions.daemons.ending import Ending
 from missions.daemons.log import Log
-from missions.daemons.options import DaemonOptions, fingerprint
+from missions.daemons.options import DaemonOptions, await_world_s, fingerprint
 from missions.daemons.orders import Answer, Verb, encode_answer
 from missions.daemons.seat import Seat
 from missions.daemons.security import silence, why
@@ -44,8 +44,6 @@ DONE, FAILED, STOPPED = 0, 1, 130
 
 HELLO_EVERY_S = 0.1
 MOST_AT_ONCE = 20  # ticks that are made up for before it listens again
-# A world on this computer that is gone for so long has ended, and it is not we who were too busy to keep in touch.
-ENDED_S = 1.0
 FRAMES_LATE_S = 10.0  # frames that are under way and do not come for so long are lost
 FRAME_LOOK_S = 1e-4
 MAX_QUESTIONS = 100
@@ -68,6 +66,7 @@ def agent(mission: Mission, uids: Sequence[int], options: DaemonOptions) -> int:
                     patience_s=options.join_s,
                     credentials=options.credentials,
                     tell=lambda error: log.error(f"{why(error, options.credentials, otherwise='')}; still trying"),
+                    stop=lambda: ending.asked,
                 ) as bus,
                 open_airwaves(mission, uids, options, bus) as airwaves,
             ):
@@ -75,6 +74,8 @@ def agent(mission: Mission, uids: Sequence[int], options: DaemonOptions) -> int:
                 daemon = _Daemon(mission, radios, bus, transports, options, ending=ending, log=log)
                 return daemon.run()
         except BusError as error:
+            if ending.asked:
+                return STOPPED if ending.interrupted else DONE
             hint = f"does `swarm world {mission.name}` run there?"
             log.error(why(error, options.credentials, otherwise=hint))
         except KeyboardInterrupt:
@@ -239,20 +240,17 @@ class _Daemon:
             self._mail.give_up(uid)
 
     def _is_world_lost(self) -> bool:
-        """Whether the world's process has gone, and it is too late to wait for it.
+        """Whether the world's process has gone, and is not waited for any longer.
 
-        On this computer it can only have ended. Elsewhere it may be the link: where the agents' own clock goes on, they
-        know themselves how long to wait; in lockstep time stands still meanwhile.
+        In lockstep time stands still meanwhile; where the agents' own clock goes on, they know themselves how long.
         """
-        gone_at_s = self._gone_at_s
+        gone_at_s, lockstep = self._gone_at_s, self._options.lockstep
         if gone_at_s is None:
             return False
         for seat in self._flying():
-            seat.away = seat.away or self._options.lockstep
-        gone_s = monotonic() - gone_at_s
-        if is_local(self._options.endpoint):
-            return gone_s > ENDED_S
-        return self._options.lockstep and gone_s > self._mission.agents.alone_s
+            seat.away = seat.away or lockstep
+        is_awaited = lockstep or is_local(self._options.endpoint)
+        return is_awaited and monotonic() - gone_at_s > await_world_s(self._mission, self._options)
 
     def _fly_home(self) -> int:
         """The world has ended, and with it the clock: who is still up comes down by itself."""

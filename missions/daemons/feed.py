@@ -105,7 +105,7 @@ class Feed:
         if not self._wait(lambda kept: kept.closed, LOST_S):
             self._fail("the recording was not finished")
         elif self._kept.dropped:
-            self._fail(f"the recorder was too slow: {self._kept.dropped} ticks are missing")
+            self._fail(f"the recorder was too slow, or its link was cut: {self._kept.dropped} ticks are missing")
 
     def _wait(self, enough: Callable[[Kept], bool], timeout_s: float) -> bool:
         deadline_s = monotonic() + timeout_s

@@ -7,12 +7,15 @@ from hashlib import sha256
 from math import inf, isinf
 
 from comms.credentials import Credentials
+from comms.endpoint import is_local
 from comms.status import Level
 from missions.mission import Mission
 
 # zenoh's own port, on this machine alone.
 ENDPOINT = "tcp/127.0.0.1:7447"
 JOIN_S = 60.0
+# A world on this computer that is gone for so long has ended, and it is not we who were too busy to keep in touch.
+ENDED_S = 1.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,6 +40,11 @@ class DaemonOptions:
     def lockstep(self) -> bool:
         """Whether nothing may be dropped, because everybody waits for everybody."""
         return isinf(self.speed)
+
+
+def await_world_s(mission: Mission, options: DaemonOptions) -> float:
+    """How long (wall clock) a world that has gone is waited for: elsewhere it may be the link that was cut."""
+    return ENDED_S if is_local(options.endpoint) else mission.agents.alone_s
 
 
 def fingerprint(mission: Mission, speed: float) -> str:

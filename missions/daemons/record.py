@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import queue
+from contextlib import suppress
 from time import monotonic
 from typing import TYPE_CHECKING
 
@@ -13,7 +14,7 @@ from comms.session import BusError, Network, open_client
 from missions.daemons.ending import Ending
 from missions.daemons.feed import KEPT_EVERY_TICKS, WINDOW_TICKS, Kept
 from missions.daemons.log import Log
-from missions.daemons.options import DaemonOptions, fingerprint
+from missions.daemons.options import DaemonOptions, await_world_s, fingerprint
 from missions.daemons.security import silence, why
 from missions.daemons.wire import OVER, decode_observation
 from missions.launch import DONE, FAILED, STOPPED, recorder_of
@@ -45,10 +46,17 @@ def record(mission: Mission, daemon: DaemonOptions, options: LaunchOptions) -> i
             raise InputError(str(error)) from error
         try:
             with open_client(
-                daemon.endpoint, lossless=daemon.lockstep, patience_s=daemon.join_s, credentials=daemon.credentials
+                daemon.endpoint,
+                lossless=daemon.lockstep,
+                patience_s=daemon.join_s,
+                credentials=daemon.credentials,
+                tell=lambda error: log.error(f"{why(error, daemon.credentials, otherwise='')}; still trying"),
+                stop=lambda: ending.asked,
             ) as bus:
                 return _Reel(mission, bus, recorder, daemon, ending=ending, log=log).run()
         except BusError as error:
+            if ending.asked:
+                return STOPPED if ending.interrupted else DONE
             hint = f"does `swarm world {mission.name}` run there?"
             log.error(why(error, daemon.credentials, otherwise=hint))
         except KeyboardInterrupt:
@@ -68,10 +76,12 @@ class _Reel:
         self._daemon = daemon
         self._ending = ending
         self._log = log
-        # What comes too fast in real time is dropped and counted, as in the recorder's own queue.
+        # What comes too fast in real time is dropped, as in the recorder's own queue.
         self._inbox: queue.Queue[bytes] = queue.Queue(4 * WINDOW_TICKS)
-        self._dropped = 0
-        self._world_gone = False
+        self._last_tick: int | None = None
+        self._missing = 0
+        self._await_world_s = await_world_s(mission, daemon)
+        self._gone_at_s: float | None = None
         self._put = bus.publisher(keys.kept)
         bus.subscribe(keys.truth, self._hear)
         bus.watch(keys.alive(WORLD), self._on_world)
@@ -86,24 +96,24 @@ class _Reel:
             self._log.error(str(error))
             self._tell(Kept(HELLO_TICK, failure=str(error)))
             return FAILED
-        dropped = self._dropped + self._recorder.dropped
+        dropped = self._missing + self._recorder.dropped
         if dropped:
-            self._log.error(f"the recorder was too slow: {dropped} ticks are missing")
+            self._log.error(f"the recorder was too slow, or its link was cut: {dropped} ticks are missing")
             code = code or FAILED
         self._tell(Kept(HELLO_TICK, recording=self._path, closed=True, dropped=dropped))
         return code
 
     def _record(self) -> int:
-        begun = False
         deadline_s = monotonic() + self._daemon.join_s
         while not self._ending.asked:
             try:
                 wire = self._inbox.get(timeout=HELLO_EVERY_S)
             except queue.Empty:
-                if self._world_gone:
+                gone_at_s = self._gone_at_s
+                if gone_at_s is not None and monotonic() - gone_at_s > self._await_world_s:
                     self._log.error("the world has gone: the recording ends here")
                     return FAILED
-                if not begun:
+                if self._last_tick is None:
                     if monotonic() > deadline_s:
                         hint = silence(self._daemon.credentials)
                         self._log.error(f"no word from the world for {self._daemon.join_s:g} s{hint}")
@@ -115,7 +125,9 @@ class _Reel:
             observation = decode_observation(wire)
             if observation is None:
                 continue
-            begun = True
+            if self._last_tick is not None:
+                self._missing += max(0, observation.tick - self._last_tick - 1)
+            self._last_tick = observation.tick
             self._recorder.observe(observation)
             if observation.tick % KEPT_EVERY_TICKS == 0:
                 self._tell(Kept(observation.tick, recording=self._path))
@@ -129,10 +141,8 @@ class _Reel:
         self._put(msgspec.msgpack.encode(kept))
 
     def _hear(self, key: str, payload: bytes) -> None:
-        try:
+        with suppress(queue.Full):
             self._inbox.put_nowait(payload)
-        except queue.Full:
-            self._dropped += 1
 
     def _on_world(self, key: str, is_there: bool) -> None:
-        self._world_gone = not is_there
+        self._gone_at_s = None if is_there else monotonic()
