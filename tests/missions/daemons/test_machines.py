@@ -19,6 +19,8 @@ pytestmark = [
 ]
 
 RESUME_S = 0.5
+CUT = 'who=agent-2 text="its process has died, or its link is cut"'
+BACK = 'who=agent-2 text="its process is back"'
 ENDPOINT = f"tcp/{GROUND_ADDRESS}:7447"
 
 
@@ -38,11 +40,11 @@ def test_a_mission_goes_on_as_soon_as_the_cable_is_mended(tmp_path: Path, cut: C
             del world.said[:], drone.said[:]
             with machines.cut(cut):
                 began_s = monotonic()
-                world.wait_for('who=agent-2 text="its process has died, or its link is cut"')
+                world.wait_for(CUT)
                 drone.wait_for("holds still")
                 sleep(max(0.0, began_s + cut_s - monotonic()))
                 mended_s = monotonic()
-            world.wait_for('who=agent-2 text="its process is back"')
+            world.wait_for(BACK)
             assert monotonic() - mended_s < RESUME_S
             drone.wait_for("the world is back")
             # Had it taken a cue of before for one of now, the time without would have been shorter, or in pieces.
@@ -51,3 +53,58 @@ def test_a_mission_goes_on_as_soon_as_the_cable_is_mended(tmp_path: Path, cut: C
         assert [world.wait(), others.wait(), drone.wait()] == [0, 0, 0], world.output + drone.output
     report = report_of(file)
     assert report["duration_s"] == 36.0
+
+
+def test_who_is_alone_for_too_long_flies_home_and_the_others_go_on(tmp_path: Path) -> None:
+    mission = ("quickstart", *SMALL, "--speed", "2", "--duration", "60", "--set", "agents.may_lose=1")
+    mission = (*mission, "--set", "agents.alone_s=3")
+    with (
+        two_machines() as machines,
+        machines.swarm(GROUND, "world", *mission, "--listen", ENDPOINT, "--insecure") as world,
+        machines.swarm(GROUND, "agent", *mission, "--connect", ENDPOINT, "--id", "0-1") as others,
+        machines.swarm(DRONE, "agent", *mission, "--connect", ENDPOINT, "--id", "2") as drone,
+    ):
+        world.wait_for("the mission begins")
+        with machines.cut(Cut.SILENT):
+            assert drone.wait() == 1, drone.output
+            assert "no word from the world: flying home" in drone.output
+            assert "landed and disarmed" in drone.output
+        assert [world.wait(), others.wait()] == [0, 0], world.output
+
+
+def test_in_lockstep_the_world_goes_on_and_time_stands_still_for_who_is_cut_off() -> None:
+    mission = ("quickstart", *SMALL, "--duration", "100000", "--set", "agents.may_lose=1")
+    with (
+        two_machines() as machines,
+        machines.swarm(GROUND, "world", *mission, "--listen", ENDPOINT, "--insecure") as world,
+        machines.swarm(GROUND, "agent", *mission, "--connect", ENDPOINT, "--id", "0-1") as others,
+        machines.swarm(DRONE, "agent", *mission, "--connect", ENDPOINT, "--id", "2") as drone,
+    ):
+        world.wait_for("the mission begins")
+        with machines.cut(Cut.SILENT):
+            world.wait_for(CUT)
+            sleep(2.0)
+        world.wait_for(BACK)
+        drone.wait_for("the world is back")
+        world.process.terminate()
+        assert [world.wait(), others.wait(), drone.wait()] == [0, 0, 0], world.output + drone.output
+    assert "landed and disarmed" in drone.output
+
+
+def test_a_recording_goes_on_and_tells_what_is_missing(tmp_path: Path) -> None:
+    pytest.importorskip("rerun")
+    file = tmp_path / "cut.rrd"
+    mission = ("quickstart", *SMALL, "--speed", "2", "--duration", "20")
+    with (
+        two_machines() as machines,
+        machines.swarm(GROUND, "world", *mission, "--listen", ENDPOINT, "--insecure", "--recorded") as world,
+        machines.swarm(GROUND, "agent", *mission, "--connect", ENDPOINT, "--id", "0-2") as agents,
+        machines.swarm(DRONE, "record", *mission, "--connect", ENDPOINT, "--record", str(file)) as recorder,
+    ):
+        world.wait_for("the mission begins")
+        with machines.cut(Cut.UNPLUGGED):
+            sleep(3.0)
+        assert [world.wait(), agents.wait(), recorder.wait()] == [1, 0, 1], world.output + recorder.output
+    [missing] = map(int, re.findall(r"its link was cut: (\d+) ticks are missing", recorder.output))
+    assert 50 < missing < 90
+    assert file.exists()
