@@ -17,6 +17,7 @@ computer silence means that it is busy, and zenoh's own lease of 10 s holds.
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from time import monotonic
@@ -174,15 +175,18 @@ def open_local_bus() -> Iterator[ZenohBus]:
 
 
 @contextmanager
-def open_router(endpoint: str, *, lossless: bool, gate: Gate | None = None) -> Iterator[ZenohBus]:
+def open_router(endpoint: str, *, lossless: bool, gate: Gate | None = None, n_clients: int = 0) -> Iterator[ZenohBus]:
     """The session through which all others of a mission speak: it listens there (`tcp/127.0.0.1:7447`).
 
     Args:
         gate: whom to let in, and to what; without one, everybody to everything.
+        n_clients: how many there will be, as far as that is known.
 
     Raises:
         BusError: it cannot listen there.
     """
+    if not is_local(endpoint):
+        _receive_from(n_clients)
     settings: dict[str, Any] = {"mode": "router", "listen/endpoints": [endpoint]} | _lease(endpoint)
     if gate is not None:
         settings |= _proofs(gate.credentials, "listen") | {"access_control": gate.access_control()}
@@ -203,6 +207,7 @@ def open_peer(endpoint: str, mates: Sequence[str], *, gate: Gate | None = None) 
     Raises:
         BusError: it cannot listen there.
     """
+    _receive_from(len(mates))
     settings: dict[str, Any] = {
         "mode": "peer",
         "listen/endpoints": [endpoint],
@@ -232,16 +237,20 @@ def open_client(
     credentials: Credentials | None = None,
     tell: Callable[[BusError], None] = _keep_quiet,
     stop: Callable[[], bool] = _never,
+    n_peers: int = 0,
 ) -> Iterator[ZenohBus]:
     """A session behind the router that listens there; after an outage it connects again by itself.
 
     Args:
         tell: hears, once and while it is still tried, that somebody is there who does not let us in.
         stop: asked every few seconds; once true, it is not tried any longer.
+        n_peers: how many peers this process will speak to besides, as far as that is known.
 
     Raises:
         BusError: nobody who lets us in listens there in `patience_s`, or until it is stopped.
     """
+    if n_peers:
+        _receive_from(n_peers)
     deadline_s, told = monotonic() + patience_s, False
     with ExitStack() as stack:
         while True:
@@ -310,6 +319,17 @@ def _open(settings: Mapping[str, Any]) -> Iterator[Any]:
             session.close()
 
 
+def _receive_from(n_links: int) -> None:
+    """Have a thread to receive by for each of so many links that may be cut.
+
+    zenoh closes a socket whose other end has gone in a thread that receives, where close(2) waits up to 10 s for what
+    was still to be sent. It has two such threads for all links: two that are cut would silence the others. They are
+    counted when the process opens its first session.
+    """
+    n_threads = _RECEIVERS + min(n_links, _MOST_RECEIVERS)
+    os.environ.setdefault("ZENOH_RUNTIME", f"(rx: (worker_threads: {n_threads}))")
+
+
 def _proofs(credentials: Credentials, *ends: str) -> dict[str, Any]:
     """Both ends show certificates. A router's is of another kind than a client's, so no address needs to be in it."""
     tls = "transport/link/tls"
@@ -337,6 +357,7 @@ _RETRY = {"period_init_ms": 100, "period_max_ms": 300, "period_increase_factor":
 _RETRY_SOON = _RETRY | {"period_max_ms": 100}
 _CALL_S = 0.25  # on a link that is quick; TCP, TLS and zenoh take some round trips
 _TRIPS_TO_OPEN = 10
+_RECEIVERS, _MOST_RECEIVERS = 2, 64
 _QUIET: dict[str, Any] = {
     "listen/endpoints": [],
     "connect/endpoints": [],

@@ -67,6 +67,7 @@ def agent(mission: Mission, uids: Sequence[int], options: DaemonOptions) -> int:
                     credentials=options.credentials,
                     tell=lambda error: log.error(f"{why(error, options.credentials, otherwise='')}; still trying"),
                     stop=lambda: ending.asked,
+                    n_peers=len(mission.radio.endpoints),
                 ) as bus,
                 open_airwaves(mission, uids, options, bus) as airwaves,
             ):

@@ -61,7 +61,12 @@ def world(mission: Mission, daemon: DaemonOptions, options: WorldOptions) -> int
     ending = Ending(log.info)
     with ending.listening(leash=daemon.leash):
         try:
-            with open_router(daemon.endpoint, lossless=daemon.lockstep, gate=_gate(mission, daemon)) as bus:
+            with open_router(
+                daemon.endpoint,
+                lossless=daemon.lockstep,
+                gate=_gate(mission, daemon),
+                n_clients=mission.agents.count,
+            ) as bus:
                 return _run(mission, bus, daemon, options, ending=ending, log=log, console=console)
         except BusError as error:
             raise InputError(f"--listen: {error}") from error

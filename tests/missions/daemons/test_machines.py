@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
+import subprocess
 from pathlib import Path
 from time import monotonic, sleep
 
 import pytest
 
 from tests.missions.daemons.machines import DRONE, GROUND, GROUND_ADDRESS, Cut, two_machines, why_not
-from tests.missions.daemons.swarm import SMALL
+from tests.missions.daemons.swarm import COMMAND, ROOT, SMALL
 from tests.missions.daemons.test_processes import report_of
 
 pytestmark = [
@@ -22,17 +23,22 @@ RESUME_S = 0.5
 CUT = 'who=agent-2 text="its process has died, or its link is cut"'
 BACK = 'who=agent-2 text="its process is back"'
 ENDPOINT = f"tcp/{GROUND_ADDRESS}:7447"
+LISTEN = ("--listen", ENDPOINT)
 
 
 @pytest.mark.parametrize("cut", Cut)
 def test_a_mission_goes_on_as_soon_as_the_cable_is_mended(tmp_path: Path, cut: Cut) -> None:
-    file = tmp_path / "report.json"
-    mission = ("quickstart", *SMALL, "--speed", "1", "--duration", "36", "--set", "agents.may_lose=1")
+    """Two drones are cut off, the third is not; once everybody proves who it is, and once nobody does."""
+    file, network = tmp_path / "report.json", _network(tmp_path, secured=cut is Cut.SILENT)
+    mission = ("quickstart", *SMALL, "--speed", "1", "--duration", "36", "--set", "agents.may_lose=2")
+    connect = (*mission, "--connect", ENDPOINT, *network)
+    insecure = () if network else ("--insecure",)
     with (
         two_machines() as machines,
-        machines.swarm(GROUND, "world", *mission, "--listen", ENDPOINT, "--insecure", "--report", str(file)) as world,
-        machines.swarm(GROUND, "agent", *mission, "--connect", ENDPOINT, "--id", "0-1") as others,
-        machines.swarm(DRONE, "agent", *mission, "--connect", ENDPOINT, "--id", "2") as drone,
+        machines.swarm(GROUND, "world", *mission, *network, *insecure, *LISTEN, "--report", str(file)) as world,
+        machines.swarm(GROUND, "agent", *connect, "--id", "0") as near,
+        machines.swarm(DRONE, "agent", *connect, "--id", "1") as other,
+        machines.swarm(DRONE, "agent", *connect, "--id", "2") as drone,
     ):
         world.wait_for("the mission begins")
         for cut_s in (3.0, 13.0):
@@ -50,9 +56,21 @@ def test_a_mission_goes_on_as_soon_as_the_cable_is_mended(tmp_path: Path, cut: C
             # Had it taken a cue of before for one of now, the time without would have been shorter, or in pieces.
             [without_s] = map(float, re.findall(r"the world is back, after ([\d.]+) s without", drone.output))
             assert cut_s - 0.2 < without_s < cut_s + 1.0
-        assert [world.wait(), others.wait(), drone.wait()] == [0, 0, 0], world.output + drone.output
+        codes = [process.wait() for process in (world, near, other, drone)]
+        assert codes == [0, 0, 0, 0], world.output + drone.output
     report = report_of(file)
     assert report["duration_s"] == 36.0
+    assert {fault["agent"] for fault in report["faults"]} == {1, 2}
+
+
+def _network(folder: Path, *, secured: bool) -> tuple[str, ...]:
+    """What every process is told of the network."""
+    if not secured:
+        return ()
+    pytest.importorskip("cryptography")
+    keys = str(folder / "keys")
+    subprocess.run((*COMMAND, "keys", keys, "--agents", "3"), check=True, cwd=ROOT, capture_output=True)
+    return ("--keys", keys)
 
 
 def test_who_is_alone_for_too_long_flies_home_and_the_others_go_on(tmp_path: Path) -> None:
@@ -60,7 +78,7 @@ def test_who_is_alone_for_too_long_flies_home_and_the_others_go_on(tmp_path: Pat
     mission = (*mission, "--set", "agents.alone_s=3")
     with (
         two_machines() as machines,
-        machines.swarm(GROUND, "world", *mission, "--listen", ENDPOINT, "--insecure") as world,
+        machines.swarm(GROUND, "world", *mission, *LISTEN, "--insecure") as world,
         machines.swarm(GROUND, "agent", *mission, "--connect", ENDPOINT, "--id", "0-1") as others,
         machines.swarm(DRONE, "agent", *mission, "--connect", ENDPOINT, "--id", "2") as drone,
     ):
@@ -76,7 +94,7 @@ def test_in_lockstep_the_world_goes_on_and_time_stands_still_for_who_is_cut_off(
     mission = ("quickstart", *SMALL, "--duration", "100000", "--set", "agents.may_lose=1")
     with (
         two_machines() as machines,
-        machines.swarm(GROUND, "world", *mission, "--listen", ENDPOINT, "--insecure") as world,
+        machines.swarm(GROUND, "world", *mission, *LISTEN, "--insecure") as world,
         machines.swarm(GROUND, "agent", *mission, "--connect", ENDPOINT, "--id", "0-1") as others,
         machines.swarm(DRONE, "agent", *mission, "--connect", ENDPOINT, "--id", "2") as drone,
     ):
@@ -97,7 +115,7 @@ def test_a_recording_goes_on_and_tells_what_is_missing(tmp_path: Path) -> None:
     mission = ("quickstart", *SMALL, "--speed", "2", "--duration", "20")
     with (
         two_machines() as machines,
-        machines.swarm(GROUND, "world", *mission, "--listen", ENDPOINT, "--insecure", "--recorded") as world,
+        machines.swarm(GROUND, "world", *mission, *LISTEN, "--insecure", "--recorded") as world,
         machines.swarm(GROUND, "agent", *mission, "--connect", ENDPOINT, "--id", "0-2") as agents,
         machines.swarm(DRONE, "record", *mission, "--connect", ENDPOINT, "--record", str(file)) as recorder,
     ):
