@@ -2,7 +2,7 @@
 
 It says hello until the world cues it, and then does a tick for each cue. Asked to end, it flies home, lands, and goes.
 While the world is silent it holds still on its own clock (`seat`, `contact`) and says hello; after the mission's
-`agents.alone_s` it flies home, and so it does when the world ends.
+`agents.world_timeout_s` it flies home, and so it does when the world ends.
 """
 
 from __future__ import annotations

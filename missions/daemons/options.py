@@ -44,7 +44,7 @@ class DaemonOptions:
 
 def await_world_s(mission: Mission, options: DaemonOptions) -> float:
     """How long (wall clock) a world that has gone is waited for: elsewhere it may be the link that was cut."""
-    return ENDED_S if is_local(options.endpoint) else mission.agents.alone_s
+    return ENDED_S if is_local(options.endpoint) else mission.agents.world_timeout_s
 
 
 def fingerprint(mission: Mission, speed: float) -> str:

@@ -103,7 +103,7 @@ class Seat:
         news: list[Event] = []
         if not self.away:
             self.away = True
-            limit_s = self._mission.agents.alone_s
+            limit_s = self._mission.agents.world_timeout_s
             news.append(Event(Level.WARNING, f"no word from the world: holds still, for {limit_s:g} s at most"))
         if self.is_given_up and not self.orders.come_home:
             self.orders.come_home = True
@@ -121,7 +121,7 @@ class Seat:
     @property
     def is_given_up(self) -> bool:
         """Whether that is so long that it is to be home."""
-        return self.alone_s >= self._mission.agents.alone_s
+        return self.alone_s >= self._mission.agents.world_timeout_s
 
     def do(self, cue: Cue) -> Done:
         """One tick of its side, under the orders of people."""

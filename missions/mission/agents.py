@@ -66,7 +66,7 @@ class Agents(Part):
     """How high agents fly."""
     may_lose: Annotated[int, Field(ge=0, le=MOST_AGENTS)] = 0
     """How many agents' processes may die, or stop answering, without the mission having failed."""
-    alone_s: Annotated[float, Field(ge=0, le=3600)] = 30.0
+    world_timeout_s: Annotated[float, Field(ge=0, le=3600)] = 30.0
     """How long an agent whose process does not hear the world's holds still before it flies home."""
 
     @property

@@ -150,9 +150,10 @@ def test_an_override_mends_a_wrong_value() -> None:
     [
         ("agents.count=0", "--set: agents.count: got 0; allowed: a whole number from 1 to 1000"),
         ("agents.cuont=3", "--set: agents.cuont: got an unknown key; "
-         "allowed: count, speed_m_s, sensing, deployment, altitude, may_lose, alone_s; did you mean count?"),
+         "allowed: count, speed_m_s, sensing, deployment, altitude, may_lose, world_timeout_s; did you mean count?"),
         ("agents={count: 3, sped_m_s: 1}", "--set: agents.sped_m_s: got an unknown key; "
-         "allowed: count, speed_m_s, sensing, deployment, altitude, may_lose, alone_s; did you mean speed_m_s?"),
+         "allowed: count, speed_m_s, sensing, deployment, altitude, may_lose, world_timeout_s; "
+         "did you mean speed_m_s?"),
         ("agents.count.max=3", "--set: agents.count: got a mapping; allowed: a whole number from 1 to 1000"),
         ("seed=", "--set: seed: got null; allowed: a whole number from 0 to 4294967295"),
         ("seed='7'", '--set: seed: got "7"; allowed: a whole number from 0 to 4294967295'),

@@ -75,7 +75,7 @@ def _network(folder: Path, *, secured: bool) -> tuple[str, ...]:
 
 def test_who_is_alone_for_too_long_flies_home_and_the_others_go_on(tmp_path: Path) -> None:
     mission = ("quickstart", *SMALL, "--speed", "2", "--duration", "60", "--set", "agents.may_lose=1")
-    mission = (*mission, "--set", "agents.alone_s=3")
+    mission = (*mission, "--set", "agents.world_timeout_s=3")
     with (
         two_machines() as machines,
         machines.swarm(GROUND, "world", *mission, *LISTEN, "--insecure") as world,
