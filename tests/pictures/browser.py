@@ -31,7 +31,7 @@ _FLAGS = (
     *("--enable-unsafe-swiftshader", "--use-gl=angle", "--use-angle=swiftshader", "--ignore-gpu-blocklist"),
     *("--hide-scrollbars", "--remote-debugging-pipe"),
 )
-_STOP_S, _DRAW_S = 20.0, 90.0
+_STOP_S, _DRAW_S = 20.0, 240.0
 _LOOK_EVERY_S, _STILL = 0.5, 4  # so many equal pictures in a row are a finished one
 _CHUNK = 1 << 20
 _BLANK_BYTES = 20_000  # a page of one color, or with a spinner, is smaller
