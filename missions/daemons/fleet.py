@@ -129,8 +129,10 @@ def status_table(answers: Answers) -> Table:
     table.title_justify, table.title_style = "left", "bold"
     for (mission, who), answer in answers.items():
         name = [mission] if many else []
-        if answer is None or answer.report is None:
+        if answer is None:
             table.add_row(*name, f"A{who}", "", "does not answer", style=_RED)
+        elif answer.report is None:
+            table.add_row(*name, f"A{who}", "", answer.text)
         else:
             table.add_row(*name, f"A{who}", *_cells(answer.report))
     return table

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import ast
+import json
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 from comms.clock import Lockstep
 from comms.session import open_local_bus
+from comms.sight import decode_sight
 from missions.faults.costs import Costs
 from missions.flight import Flight
-from missions.load import load_mission
+from missions.load import load_mission, parse_mission
 from missions.metrics import Metrics
 from missions.mission import Mission
 from missions.observation import Observation
@@ -69,6 +73,23 @@ def test_so_they_do_when_computers_fail_and_who_is_off_is_heard_by_nobody_and_he
     assert counted["delivered"] + counted["out_of_range"] + counted["refused"] == 3 * counted["sent"]
     assert 0 < counted["out_of_range"] < told["delivered"]
     assert links == ((1, 2), (1, 3), (2, 3))
+
+
+def test_the_guides_mission_can_be_flown() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "field.md").read_text(encoding="utf-8")
+    text = page.partition("```yaml\n")[2].partition("```")[0]
+    mission = parse_mission(text.encode(), source="docs/field.md", folder=Path())
+    assert mission.radio.mode == "field"
+    assert len(mission.radio.endpoints) == mission.agents.count
+
+
+def test_the_guides_detector_is_understood() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "field.md").read_text(encoding="utf-8")
+    [line] = [line for line in page.splitlines() if line.strip().startswith("targets = [")]
+    targets = ast.literal_eval(line.partition("=")[2].strip())
+    sight = decode_sight(json.dumps({"at_s": 1.0, "targets": targets}).encode(), n_targets=4)
+    assert sight is not None
+    assert sight.targets[0].target == 3
 
 
 def test_a_study_does_not_know_the_field() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import signal
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from pathlib import Path
@@ -15,12 +16,12 @@ from comms.access import Gate, Place
 from comms.codec import encode
 from comms.credentials import Credentials, agents_name
 from comms.field import FieldRadio
-from comms.keys import Keys
+from comms.keys import Keys, sender
 from comms.messages import Frame
 from comms.radio import Roster
 from comms.session import BusError, Network, open_client, open_peer, open_router
 from missions.cli import main
-from tests.missions.daemons.swarm import PATIENCE_S, SMALL, free_endpoint, swarm
+from tests.missions.daemons.swarm import PATIENCE_S, SMALL, children, free_endpoint, kill, swarm
 
 KEYS = Keys("tour")
 FIELD = ("--set", "radio.mode=field")
@@ -68,6 +69,21 @@ def test_frames_go_from_radio_to_radio(tmp_path: Path, folder: Path) -> None:
     assert radio["sent"] > 0
     # The world's router lets no mate's frames through. On a slow computer many are stale when they are looked at.
     assert radio["delivered"] > 0
+
+
+def test_mates_hear_each_other_while_the_world_stands_still() -> None:
+    endpoints = [free_endpoint() for _ in range(3)]
+    where = ("--set", f"radio.endpoints=[{', '.join(endpoints)}]", "--set", "agents.altitude.base_m=2")
+    words = ("--processes", "--listen", free_endpoint(), "--speed", "4", "--duration", "600", "--log-level", "info")
+    with swarm("launch", "quickstart", *SMALL, *FIELD, *where, *words) as run:
+        run.wait_for("the mission begins")
+        [world] = [pid for pid, words in children(run.process.pid).items() if " world " in words]
+        kill(world, signal.SIGSTOP)
+        run.wait_for("holds still")
+        heard: set[int | None] = set()
+        with open_peer(free_endpoint(), endpoints) as listener:
+            listener.subscribe(Keys("quickstart").every_tx, lambda key, payload: heard.add(sender(key)))
+            until(lambda: heard == {0, 1, 2})
 
 
 class Radios:
