@@ -13,6 +13,7 @@ import argparse
 import json
 import re
 import signal
+import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -30,6 +31,7 @@ from tests.missions.daemons.swarm import Swarm, children, free_endpoint, kill, s
 
 DURATION_S, AT_S, WINDOW_S, TICK_S = 120.0, 40.0, 30.0, 0.1
 SPEED = 5.0
+WIDE = 160
 FROZEN_S = 6.0  # on the wall clock
 _TIME = re.compile(r"time_s=([0-9.]+)")
 
@@ -160,7 +162,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description="What it costs when a process of a mission is killed or frozen.")
     parser.add_argument("--only", nargs="+", metavar="NAME", help="cases whose names have one of these in them")
     only = parser.parse_args(arguments).only
-    console, progress = Console(), Console(stderr=True)
+    console, progress = Console(width=None if sys.stdout.isatty() else WIDE), Console(stderr=True)
     table = Table("what", "noticed after", "before", "from then", "after", "code", "flown", "lost", box=None)
     for case in CASES:
         if only and not any(word in case.name for word in only):
