@@ -180,12 +180,11 @@ def agents(mission: Mission, uids: Iterable[int], n_targets: int) -> list[Agent]
 
 def reserve(mission: Mission, uid: int) -> ReserveConfig:
     """What must be left in the battery of agent `uid`'s vehicle for its way home."""
-    if mission.vehicle.kind == "ideal":  # it does not tire: its missions are those of a study
-        return ReserveConfig()
     share, battery = mission.safety.battery_reserve, Battery(**mission.vehicle.battery.model_dump())
     # A vehicle elsewhere has a battery of its own, of which the mission knows nothing.
     voltage_v = battery.voltage_in_hover(share) if mission.link(uid) is None and share > 0.0 else None
-    return ReserveConfig(share=share, voltage_v=voltage_v)
+    # An ideal one does not tire, for its missions are those of a study; but its battery may break.
+    return ReserveConfig(share=None if mission.vehicle.kind == "ideal" else share, voltage_v=voltage_v)
 
 
 def signing(mission: Mission, uid: int) -> Signing | None:

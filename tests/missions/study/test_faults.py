@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from missions.cli import BAD_INPUT, main
+from missions.cli import BAD_INPUT, DONE, main
 from missions.load import load_mission
 from missions.mission import Mission
 from missions.overrides import Override
@@ -124,3 +124,20 @@ def test_a_fault_that_never_comes_is_flown_as_what_is_compiled() -> None:
     np.testing.assert_array_equal(flown.late, compiled.late)
     assert flown.noticed_s is not None
     assert np.isnan(flown.noticed_s).all()
+
+
+def test_shards_of_broken_missions_merge_to_the_whole(tmp_path: Path) -> None:
+    path = tmp_path / "small.yaml"
+    small = "{duration_s: 6, vehicle.kind: ideal, agents.count: 3, targets.count: 3}"
+    faults = "{none: [], gone: [{kind: kill, at_s: 2, agents: [0]}]}"
+    path.write_text(f"name: small\nmission: quickstart\nset: {small}\nfaults: {faults}\nruns: 4\n", encoding="utf-8")
+    parts = [tmp_path / "1", tmp_path / "2"]
+    fly_it = ["study", str(path), "--threads", "1", "--out"]
+    for number, part in enumerate(parts, start=1):
+        assert main([*fly_it, str(part), "--shard", f"{number}/2"]) == DONE
+        assert not (part / "faults.csv").exists()
+    assert main(["study", "merge", *map(str, parts), "--out", str(tmp_path / "merged")]) == DONE
+    assert main([*fly_it, str(tmp_path / "whole")]) == DONE
+    for table in ("faults.csv", "runs.csv"):
+        assert (tmp_path / "merged" / table).read_text() == (tmp_path / "whole" / table).read_text()
+    assert "kill: A0, to the end" in (tmp_path / "whole" / "faults.csv").read_text()
