@@ -6,6 +6,7 @@ import signal
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
+from datetime import UTC, datetime
 from math import acos, isinf
 from typing import TYPE_CHECKING, Any
 
@@ -145,7 +146,7 @@ def _closed(recorder: Recorder, metrics: Metrics, flight: Flight) -> bool:
         return False
     if recorder.dropped:
         metrics.fault(flight.clock_s, None, f"the recorder was too slow: {recorder.dropped} ticks are missing")
-    return True
+    return not recorder.dropped
 
 
 def _logged(logs: Sequence[Tlog], metrics: Metrics, flight: Flight) -> bool:
@@ -194,6 +195,7 @@ def recorder_of(mission: Mission, n_targets: int, options: LaunchOptions) -> Rec
         home=mission.home.place,
         ceiling_m=max(mission.agents.altitude.of_agent(uid) for uid in range(mission.agents.count)),
         coverage_floor=coverage_floor(mission),
+        flown_at="" if isinf(options.speed) else datetime.now(UTC).isoformat(timespec="seconds"),
         faults=spells_of(mission.faults, mission.tick_s),
     )
     record = None if options.record is None else options.record.resolve()

@@ -59,6 +59,7 @@ def record(mission: Mission, daemon: DaemonOptions, options: LaunchOptions) -> i
                 return STOPPED if ending.interrupted else DONE
             hint = f"does `swarm world {mission.name}` run there?"
             log.error(why(error, daemon.credentials, otherwise=hint))
+            recorder.__exit__(type(error), error, None)
         except KeyboardInterrupt:
             log.error("ended at once")
     return STOPPED if ending.interrupted else FAILED

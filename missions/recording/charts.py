@@ -14,7 +14,7 @@ from missions.recording.scene import Scene
 
 _STEP_S = 1.0
 _FRAME_COUNTS = 4
-_UNKNOWN = 0.0  # a battery nobody has heard of yet, beside others known; NaN is not equal to itself
+UNKNOWN = -1.0  # a battery nobody has heard of yet, beside others known; NaN is not equal to itself
 
 
 class Metrics:
@@ -59,16 +59,26 @@ class Telemetry:
     def __init__(self, scene: Scene) -> None:
         self._n = scene.n_agents
         self._late_s: float | None = None
+        self._batteries = np.full(scene.n_agents, UNKNOWN, dtype=np.float32)
 
     def rows(self, block: Block) -> Iterator[Rows]:
         """The telemetry."""
         late = self._late(block)
         yield Rows("/telemetry/tick_late", late, _vectors([(seen.tick_late_s,) for seen in late.observations], 1))
         block = block.every(_STEP_S)
-        known = Block(block.scene, [s for s in block.observations if any(a.battery is not None for a in s.statuses)])
-        yield Rows("/telemetry/battery", known, _vectors(np.nan_to_num(known.batteries, nan=_UNKNOWN), self._n))
+        yield self._charges(block)
         yield Rows("/telemetry/altitude", block, _vectors(block.positions_m[..., 2], self._n))
         yield Rows("/telemetry/speed", block, _vectors(block.speeds_m_s, self._n))
+
+    def _charges(self, block: Block) -> Rows:
+        """What was heard last of each battery, from the moment on at which one is known."""
+        told, rows = [], []
+        for seen, heard in zip(block.observations, block.batteries, strict=True):
+            self._batteries = np.where(np.isnan(heard), self._batteries, heard)
+            if (self._batteries != UNKNOWN).any():
+                told.append(seen)
+                rows.append(self._batteries)
+        return Rows("/telemetry/battery", Block(block.scene, told), _vectors(np.array(rows), self._n))
 
     def _late(self, block: Block) -> Block:
         """The ticks at which lateness changed, and one a second: in lockstep no tick is ever late."""

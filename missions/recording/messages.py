@@ -56,7 +56,7 @@ class Messages:
             for message in self._reader.receive(frame):
                 kind = message.get_type()
                 path = f"/mavlink/{names[uid]}/{kind}"
-                if numbers := {name: _known(number) for name, number in numbers_of(message).items()}:
+                if numbers := numbers_of(message):
                     yield Rows(path, at, [*self._names(path, list(numbers)), *_vector(numbers)])
                     self._lines.setdefault(uid, {})[kind] = _line(kind, time_s, numbers)
         for uid in sorted({uid for uid, _ in self._newest}):
@@ -73,12 +73,14 @@ class Messages:
 
 
 def _vector(numbers: Mapping[str, float]) -> Iterable[ComponentColumn]:
-    return rr.Scalars.columns(scalars=list(numbers.values())).partition([len(numbers)])
+    return rr.Scalars.columns(scalars=[_known(number) for number in numbers.values()]).partition([len(numbers)])
 
 
 def _line(kind: str, time_s: float, numbers: Mapping[str, float]) -> str:
     told = ", ".join(
-        f"{name} {value:.0f}" if value.is_integer() else f"{name} {value:.5g}" for name, value in numbers.items()
+        f"{name} {value:.0f}" if value.is_integer() else f"{name} {value:.5g}"
+        for name, value in numbers.items()
+        if not isnan(value)  # it says "not given"
     )
     return f"| {kind} | {time_s:.0f} s | {told} |"
 

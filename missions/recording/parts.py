@@ -13,7 +13,7 @@ from itertools import chain, count, takewhile
 from pathlib import Path
 
 from missions.recording.blueprint import blueprint
-from missions.recording.optimize import optimize
+from missions.recording.optimize import optimize, repair
 from missions.recording.scene import Scene
 from missions.recording.stage import set_stage
 from missions.recording.tape import Tape
@@ -86,6 +86,8 @@ class Parts:
         """Open the next part. Each can be opened without the others."""
         self._number += 1
         if self._number == 1:
+            if self.being_written.exists():
+                self._keep_the_crashed()
             self.tape = Tape(self._scene)
         self.tape.write(self.being_written, blueprint(self._scene, live=False))
         set_stage(self.tape, self._scene)
@@ -108,6 +110,15 @@ class Parts:
         """Until all that has ended is packed."""
         for thread in self._packing:
             thread.join()
+
+    def _keep_the_crashed(self) -> None:
+        """The flight before never ended, and its recording may be what somebody will ask for."""
+        kept = self._path.with_name(f"{self._path.stem}.crashed{self._path.suffix}")
+        try:
+            repair(self.being_written, kept)
+            _log.warning("%s, of a flight that never ended, is now %s", self.being_written, kept)
+        except RuntimeError as error:
+            _log.warning("%s, of a flight that never ended, is replaced: %s", self.being_written, error)
 
 
 def _pack(path: Path) -> None:

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import atan2, nan
+from math import atan2
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +23,7 @@ from comms.status import Activity, AgentStatus, Event, HelpCallStatus, Level
 from missions.observation import AgentTruth, Observation, Phase, TargetTruth, Totals
 from missions.problems import InputError
 from missions.recording import ledger
+from missions.recording.charts import UNKNOWN
 from missions.recording.scene import agent_names
 from missions.recording.table import Table, held
 from missions.recording.whole import whole
@@ -160,7 +161,7 @@ def _statuses(table: Table, ticks: Sequence[int], facts: Facts) -> list[tuple[Ag
     names = agent_names(n_agents)
     helping = table.held(ledger.DUTIES, "helping", ticks, [ledger.NOBODY] * n_agents)
     modes = table.held(ledger.DUTIES, "flight_mode", ticks, [""] * n_agents)
-    batteries = table.held("/telemetry/battery", "Scalars:scalars", ticks, [nan] * n_agents)
+    batteries = table.held("/telemetry/battery", "Scalars:scalars", ticks, [UNKNOWN] * n_agents)
     tags = _per_agent(table, ledger.TAGS, ("target",), ticks, n_agents)
     calls = _per_agent(table, ledger.CALLS, ("target", "loss_in_s", "urgent"), ticks, n_agents)
     activities = [table.held(f"/agents/{name}/mode", "StateChange:state", ticks, ["preparing"]) for name in names]
@@ -170,7 +171,7 @@ def _statuses(table: Table, ticks: Sequence[int], facts: Facts) -> list[tuple[Ag
             AgentStatus(
                 uid=uid,
                 activity=Activity(activities[uid][row][0]),
-                battery=None if np.isnan(batteries[row][uid]) else batteries[row][uid],
+                battery=None if batteries[row][uid] == UNKNOWN else batteries[row][uid],
                 tags=tuple(target for (target,) in tags[row][uid]),
                 calls=tuple(HelpCallStatus(target, loss_s, bool(urgent)) for target, loss_s, urgent in calls[row][uid]),
                 helping=None if helping[row][uid] == ledger.NOBODY else helping[row][uid],

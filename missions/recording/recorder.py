@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import queue
 import threading
 from pathlib import Path
 from types import TracebackType
@@ -16,6 +15,7 @@ from missions.recording.charts import Metrics, Telemetry
 from missions.recording.columns import Layer, TellsChanges
 from missions.recording.ground import SeenGround
 from missions.recording.hazards import Hazards
+from missions.recording.intake import Intake
 from missions.recording.ledger import Ledger
 from missions.recording.messages import Messages
 from missions.recording.minds import Minds
@@ -56,10 +56,10 @@ class Recorder:
         part_s: the mission time that one file holds; None: what takes about half a gigabyte of memory.
 
     Attributes:
-        dropped: observations that came too fast.
         server_url: where a viewer on this machine can join in, and page_url: the page for browsers; None if not live.
 
-    A killed process loses at most the last second: `optimize` turns its `F.rrd.part` into a proper recording.
+    A killed process loses the last second, and what it had no time for yet: at real time nothing, as fast as it goes
+    the queue's five seconds of mission. `swarm review` repairs what it leaves.
     """
 
     def __init__(
@@ -73,16 +73,14 @@ class Recorder:
         part_s: float | None = None,
     ) -> None:
         self.path = None if path is None else Path(path)
-        self.dropped = 0
         self.server_url: str | None = None
         self.page_url: str | None = None
         self._page: WebPage | None = None
         self._scene = scene
         self._view, self._web = view, web
-        self._lossless = lossless
         self._parts = None if self.path is None else Parts(self.path, scene, part_s=part_s or usual_part_s(scene))
         self._live: Tape | None = None
-        self._queue: queue.Queue[Observation | None] = queue.Queue(max(2, round(_QUEUED_S * scene.ticks_per_s)))
+        self._intake = Intake(max(2, round(_QUEUED_S * scene.ticks_per_s)), lossless=lossless)
         self._thread = threading.Thread(target=self._run, name="recorder", daemon=True)
         self._error: BaseException | None = None
 
@@ -109,6 +107,11 @@ class Recorder:
         return self
 
     @property
+    def dropped(self) -> int:
+        """Observations that came too fast."""
+        return self._intake.dropped
+
+    @property
     def written_bytes(self) -> int:
         """How long the file was before it was optimized."""
         return 0 if self._parts is None else self._parts.written_bytes
@@ -131,23 +134,17 @@ class Recorder:
 
     def observe(self, observation: Observation) -> None:
         """Record one tick. Costs the caller a queue entry; never raises on account of the recording."""
-        if self._lossless:
-            self._queue.put(observation)
-            return
-        try:
-            self._queue.put_nowait(observation)
-        except queue.Full:
-            self.dropped += 1
+        self._intake.put(observation)
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        """Finish the file.
+        """Finish the file. Where nothing was observed there is none, and an older one stays.
 
         Raises:
             RecordingError: something went wrong while recording, unless the mission itself failed: then it is logged.
         """
-        self._queue.put(None)
+        self._intake.end()
         self._thread.join()
         try:
             self._finish()
@@ -172,11 +169,13 @@ class Recorder:
             self._live.close()
         if self._parts is None:
             return
-        if self._error is None:
+        if self._error is None and self._intake.is_used:
             self._parts.end()
         else:
             self._parts.tape.close()
         self._parts.await_packed()
+        if not self._intake.is_used:
+            self._parts.being_written.unlink(missing_ok=True)
 
     def _run(self) -> None:
         try:
@@ -184,14 +183,14 @@ class Recorder:
         except BaseException as error:
             self._error = error
             # The mission goes on: whoever waits for room in the queue gets it.
-            while self._queue.get() is not None:
+            while self._intake.take() is not None:
                 pass
 
     def _record(self) -> None:
         layers: list[Layer] = [kind(self._scene) for kind in _LAYERS]
         ticks = round(self._scene.ticks_per_s * (_LIVE_FLUSH_S if self._is_live else _FLUSH_S)) or 1
         waiting: list[Observation] = []
-        while (observation := self._queue.get()) is not None:
+        while (observation := self._intake.take()) is not None:
             waiting.append(observation)
             if len(waiting) == ticks:
                 self._draw(layers, waiting)

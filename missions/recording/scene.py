@@ -20,6 +20,7 @@ class Scene:
 
     Attributes:
         mission_name: the recording's title. mission_yaml: the mission with every default and --set resolved.
+        flown_at: when, of a flight in real time, which no other equals; empty where equal missions are equal flights.
         seed, policy, versions: stored as properties, beside the mission. versions: name -> version (or git hash).
         tick_s: mission time between two observations.
         sensing_ranges_m: how far each agent sees, on the ground, by uid.
@@ -44,6 +45,7 @@ class Scene:
     half_opening_rad: float = pi
     ceiling_m: float = 0.0
     coverage_floor: float | None = None
+    flown_at: str = ""
     faults: tuple[Spell, ...] = ()
 
     @property
@@ -73,7 +75,10 @@ class Scene:
 
     @property
     def recording_id(self) -> str:
-        """A UUID that depends on nothing but the scene, so that the same mission records the same."""
+        """A UUID that depends on nothing but the scene, so that the same mission records the same.
+
+        The viewer shows files of one id as one recording.
+        """
         return str(uuid.uuid5(_NAMESPACE, repr(asdict(self))))
 
 

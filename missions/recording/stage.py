@@ -239,6 +239,8 @@ def _set_properties(tape: Tape, scene: Scene) -> None:
 
 def _about(scene: Scene) -> str:
     facts = {"policy": scene.policy, "seed": str(scene.seed), **scene.versions}
+    if scene.flown_at:
+        facts = {"flown at": scene.flown_at, **facts}
     table = "\n".join(f"| {name} | `{value}` |" for name, value in facts.items())
     yaml = scene.mission_yaml.rstrip()
     return f"# {scene.mission_name}\n\n| setting | value |\n|---|---|\n{table}\n\n```yaml\n{yaml}\n```\n"

@@ -320,6 +320,32 @@ class TestTrouble:
             _watch(Recorder(path, scene=scene), failing)  # type: ignore[arg-type]
         assert list(_column(path, "/world/agents/body", "Points3D:positions")) == [0]
 
+    def test_where_nothing_was_observed_an_older_recording_stays(
+        self, scene: Scene, observations: list[Observation], tmp_path: Path
+    ) -> None:
+        path = _record(tmp_path / "old.rrd", scene, observations[:20])
+        before = path.read_bytes()
+        with Recorder(path, scene=scene):
+            pass
+        assert [file.name for file in tmp_path.iterdir()] == ["old.rrd"]
+        assert path.read_bytes() == before
+
+    def test_what_a_crashed_flight_left_is_kept_when_it_is_flown_again(
+        self, scene: Scene, observations: list[Observation], tmp_path: Path, caplog: pytest.LogCaptureFixture
+    ) -> None:
+        path = tmp_path / "flight.rrd"
+        with Recorder(path, scene=scene) as recorder:
+            for observation in observations:
+                recorder.observe(observation)
+            crashed = path.with_name("flight.rrd.part").read_bytes()
+        path.unlink()
+        path.with_name("flight.rrd.part").write_bytes(crashed)
+        _record(path, scene, observations[:20])
+        assert sorted(file.name for file in tmp_path.iterdir()) == ["flight.crashed.rrd", "flight.rrd"]
+        ticks = _column(tmp_path / "flight.crashed.rrd", "/world/agents/body", "Points3D:positions")
+        assert len(ticks) > 20
+        assert "flight.crashed.rrd" in caplog.text
+
     def test_a_place_that_cannot_be_written_is_an_error_at_once(self, scene: Scene, tmp_path: Path) -> None:
         with pytest.raises(RecordingError, match="nowhere"), Recorder(tmp_path / "nowhere" / "a.rrd", scene=scene):
             pass

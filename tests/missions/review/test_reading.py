@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from msgspec import structs
 
 from missions.cli import main
 from missions.problems import InputError
@@ -135,6 +136,17 @@ def test_ticks_in_which_nobody_sends_are_ticks(tmp_path: Path) -> None:
         for one in silent:
             recorder.observe(one)
     assert [one.tick for one in play_back(tmp_path / "toy.rrd").observations] == list(range(120))
+
+
+def test_a_battery_is_what_was_heard_last_of_it_or_unknown(tmp_path: Path) -> None:
+    scene = toy_scene()
+    with Recorder(tmp_path / "toy.rrd", scene=scene) as recorder:
+        for one in toy_observations(scene, ticks=60):
+            heard = {0: None, 1: 0.75 if one.tick < 20 else None}
+            statuses = [structs.replace(s, battery=heard.get(s.uid, s.battery)) for s in one.statuses]
+            recorder.observe(replace(one, statuses=tuple(statuses)))
+    last = play_back(tmp_path / "toy.rrd").observations[-1]
+    assert [status.battery for status in last.statuses[:2]] == [None, 0.75]
 
 
 def test_a_recorder_that_came_late_or_dropped_ticks_says_so(tmp_path: Path) -> None:
