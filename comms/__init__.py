@@ -19,8 +19,9 @@ Two agents 10 m apart and a third out of range, on real zenoh without a network:
 (1, [[], [0], []])
 
 `messages` and `codec` are the frames, `keys` the topics, `session` zenoh, `credentials` who one is there and `access`
-what one may do, `mailbox` how one waits for many, `air` and `link` the medium, `radio` an agent's end of it; `mavlink`
-is one end of a MAVLink link, `framing` the layout of its frames, `signing` who is believed on it, and `transport` how
-its bytes leave the process; `status` is what observers are told; `frames`, `arena`, `chance` and `clock` are the common
-ground: coordinates, the area, randomness and pace. Imports no sibling.
+what one may do, `mailbox` how one waits for many, `air` and `link` the medium, `radio` an agent's end of it, `field`
+one without an air, `turns` who waits how long in either, `sight` what a detector on board says; `mavlink` is one end of
+a MAVLink link, `framing` the layout of its frames, `signing` who is believed on it, and `transport` how its bytes leave
+the process; `status` is what observers are told; `frames`, `arena`, `chance` and `clock` are the common ground:
+coordinates, the area, randomness and pace. Imports no sibling.
 """

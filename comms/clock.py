@@ -12,6 +12,25 @@ class Pace(Protocol):
     def begin(self, tick: int) -> float: ...
 
 
+class Awake:
+    """Seconds in which this process could look: a sleep that it did not ask for counts for `most_s` at most.
+
+    Who measures another's silence with it does not take its own for that. It must be read more often than `most_s`.
+    """
+
+    def __init__(self, *, most_s: float) -> None:
+        self._most_s = most_s
+        self._read_at_s = time.monotonic()
+        self._awake_s = 0.0
+
+    def now_s(self) -> float:
+        """Since it was made."""
+        now_s = time.monotonic()
+        self._awake_s += min(now_s - self._read_at_s, self._most_s)
+        self._read_at_s = now_s
+        return self._awake_s
+
+
 class Lockstep:
     """As fast as possible: every tick begins when the one before it is done, and is never late."""
 

@@ -11,5 +11,6 @@ Each is a page of shell around the code that runs in one process: `world` around
 way from the world to the recorder, `wire` their messages, `ending` how they are asked to end, `log` what they say.
 `processes` is which of them a launch runs, `launcher` runs them. `fleet` is how people speak to vehicles under way, and
 `orders` what these make of it. `issue` makes the credentials by which they know each other, `security` asks for them.
+`airwaves` is where frames of agents go that hear each other directly, `alone` an agent without a world.
 `verbs`, `arguments` and `options` are their command lines.
 """

@@ -12,6 +12,7 @@ from time import monotonic, sleep
 
 from msgspec import structs
 
+from comms.clock import Awake
 from comms.keys import Keys, sender
 from comms.mailbox import Mailbox
 from comms.session import Network
@@ -21,6 +22,7 @@ from missions.sides.exchange import HELLO_TICK, Cue, Done
 from missions.sides.medium import Medium
 
 LOOK_S = 0.2
+AWAKE_S = 1.0  # between two looks of ours; what is more, we have stood still ourselves
 FRAME_LOOK_S = 1e-4
 STRANGE = "has another mission, or another --speed, and is not let in: are its file and options the world's?"
 
@@ -76,6 +78,7 @@ class RemoteCrew:
         self._puts = [bus.publisher(keys.cue(uid)) for uid in range(n_agents)]
         self._missing = set(range(n_agents))  # not met, lost, or left
         self._dones: dict[int, Done] = {}
+        self._awake = Awake(most_s=AWAKE_S)
         self._heard_at_s: dict[int, float] = {}
         self._new: set[int] = set()  # its radio has not been waiting for what is under way
         self._dead: set[int] = set()  # seen to die, from another thread
@@ -118,13 +121,13 @@ class RemoteCrew:
             unchecked = uid in self._new or not self._patience.lockstep
             self._puts[uid](encode(structs.replace(cues[uid], frames=None) if unchecked else cues[uid]))
         self._new.clear()
-        deadline_s = monotonic() + self._patience.tick_s
-        while waiting and monotonic() < deadline_s:
-            self._mail.wait(waiting, timeout_s=max(0.0, deadline_s - monotonic()))
+        deadline_s = self._awake.now_s() + self._patience.tick_s
+        while waiting and (left_s := deadline_s - self._awake.now_s()) > 0.0:
+            self._mail.wait(waiting, timeout_s=min(LOOK_S, left_s))
             self._collect()
             waiting = {uid for uid in waiting - self._missing if self._dones[uid].tick != tick}
         for uid in waiting:
-            silent_s = monotonic() - self._heard_at_s[uid]
+            silent_s = self._awake.now_s() - self._heard_at_s[uid]
             if self._patience.lockstep or silent_s > self._patience.lost_s:
                 self._lose(uid, f"no answer for {silent_s:.0f} s: lost")
         dones = [self._now(uid, tick) for uid in range(len(cues))]
@@ -167,7 +170,7 @@ class RemoteCrew:
         elif done.tick < self._dones[uid].tick:
             return  # late: we know better by now
         self._dones[uid] = done
-        self._heard_at_s[uid] = monotonic()
+        self._heard_at_s[uid] = self._awake.now_s()
         if done.leaves:
             self._missing.add(uid)
 

@@ -84,6 +84,8 @@ def test_mates_hear_each_other_while_the_world_stands_still() -> None:
         with open_peer(free_endpoint(), endpoints) as listener:
             listener.subscribe(Keys("quickstart").every_tx, lambda key, payload: heard.add(sender(key)))
             until(lambda: heard == {0, 1, 2})
+        kill(world, signal.SIGCONT)
+        run.wait_for("the world is back")
 
 
 class Radios:
