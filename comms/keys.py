@@ -1,6 +1,6 @@
 """The table of topics: every key expression of a mission is built and parsed here, and nowhere else.
 
-    swarm/@v1/<mission>/tx/<uid>             agent -> air: one frame per tick
+    swarm/@v1/<mission>/tx/<uid>             agent -> air: one frame per tick; in the field -> every mate
     swarm/@v1/<mission>/rx/<uid>             air -> that agent alone: what got through, one bundle per tick
     swarm/@v1/<mission>/sight/<uid>          detector on board -> agent without a world: what is in sight
     swarm/@v1/<mission>/alive/<who>          liveliness token: of an agent (its uid), of the world, of the recorder

@@ -61,7 +61,8 @@ def _alone(mission: Mission, uids: Sequence[int], options: argparse.Namespace) -
             "radio.endpoints: got none; allowed with --alone: one for each agent, or nobody hears the other"
         )
     if options.speed not in (None, 1.0):
-        raise InputError("--speed: allowed with --alone: 1, the clock's own")
+        got = "max" if isinf(options.speed) else f"{options.speed:g}"
+        raise InputError(f"--speed: got {got}; allowed with --alone: 1, the clock's own")
     check_listening(options.alone, keys=options.keys, insecure=options.insecure, where="--alone")
     daemon = DaemonOptions(
         endpoint=endpoint_of(options.alone, keys=options.keys),

@@ -8,6 +8,7 @@
         observation = world.conclude(dones)
         world.turn(stop=False)
 
-What passes between them is in `exchange`: a `Cue` from the world to an agent, a `Done` back. `phases` is the order of
-the whole: prepare, mission, return, done.
+What passes between them is in `exchange`: a `Cue` from the world to an agent, a `Done` back. `medium` is what carries
+the agents' frames: an air of the world's, or radios of which it only hears. `phases` is the order of the whole:
+prepare, mission, return, done.
 """

@@ -152,7 +152,7 @@ FAULT = ("--set", "faults=[{kind: kill, at_s: 1, agents: [0]}]")
         (("--id", "0"), "radio.mode: got sim; allowed with --alone: field"),
         (("--id", "0", *FIELD), "radio.endpoints: got none; allowed with --alone: one for each agent"),
         (("--id", "0-9", *FIELD, *FAULT), "faults: got some; allowed with --alone: none"),
-        (("--id", "0-9", *FIELD, "--speed", "2"), "--speed: allowed with --alone: 1"),
+        (("--id", "0-9", *FIELD, "--speed", "2"), "--speed: got 2; allowed with --alone: 1"),
     ],
 )
 def test_what_cannot_be_without_a_world_is_refused(
