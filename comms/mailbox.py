@@ -13,6 +13,7 @@ class Mailbox:
         self._senders = frozenset(senders)
         self._slots: dict[int, bytes] = {}
         self._awaited: set[int] = set()
+        self._given_up: set[int] = set()  # while nobody waited
         self._lock = threading.Lock()
         self._complete = threading.Event()
 
@@ -25,14 +26,20 @@ class Mailbox:
             self._strike(sender)
 
     def give_up(self, sender: int) -> None:
-        """Nobody need wait for this one any longer; from any thread."""
+        """Who waits for this one, or is about to, need not; from any thread."""
         with self._lock:
+            self._given_up.add(sender)
             self._strike(sender)
+
+    def wake(self) -> None:
+        """Who waits is to look around; from any thread."""
+        self._complete.set()
 
     def wait(self, senders: Iterable[int], *, timeout_s: float) -> None:
         """Until there is a message of each of them, or none can come any more, or it takes too long."""
         with self._lock:
-            self._awaited = set(senders) - self._slots.keys()
+            self._awaited = set(senders) - self._slots.keys() - self._given_up
+            self._given_up.clear()
             if not self._awaited:
                 return
             self._complete.clear()

@@ -109,6 +109,7 @@ class _Daemon:
         self._fingerprint = fingerprint(mission, options.speed)
         self._greeted_at_s = -inf
         self._gone_at_s: float | None = None
+        self._is_world_there = False
         self._is_closing = False
         self._seats = {uid: self._seat(uid, started_tick=0) for uid in self._radios}
 
@@ -132,6 +133,8 @@ class _Daemon:
             if not any(seat.met for seat in self._seats.values()):
                 if self._ending.asked:
                     break
+                if self._is_world_there:  # and waits for others
+                    deadline_s = monotonic() + self._options.join_s
                 if monotonic() > deadline_s:
                     hint = silence(self._options.credentials)
                     self._log.error(
@@ -237,8 +240,8 @@ class _Daemon:
     def _on_world(self, key: str, is_there: bool) -> None:
         self._gone_at_s = None if is_there else monotonic()
         self._greeted_at_s = -inf
-        for uid in self._seats:
-            self._mail.give_up(uid)
+        self._is_world_there = is_there
+        self._mail.wake()
 
     def _is_world_lost(self) -> bool:
         """Whether the world's process has gone, and is not waited for any longer.
@@ -267,7 +270,7 @@ class _Daemon:
             pace.begin(tick)
             for seat in self._flying():
                 self._obey(seat)
-                self._say(seat, seat.do(Cue(tick=tick, come_home=True, frames=None, silent=True)).status.events)
+                self._say(seat, seat.do(seat.contact.come_home(tick)).status.events)
                 seat.over = seat.over or seat.has_ended
             if not self._flying():
                 break

@@ -62,6 +62,10 @@ class Contact:
         """The agent's own cue for this tick, once it is due."""
         return None if self.last is None or now_s < self.due_s(next_tick) else _held(self.last, next_tick)
 
+    def come_home(self, tick: int) -> Cue:
+        """The agent's own cue for a tick after the world has ended."""
+        return structs.replace(_held(self.last or Cue(tick=tick), tick), come_home=True, silent=True)
+
     def missed(self, next_tick: int, cue: Cue) -> Iterator[Cue]:
         """In lockstep, the agent's own cues for the ticks before this cue that it was not told of."""
         if self.last is not None and self._period_s is None:

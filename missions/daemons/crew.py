@@ -32,12 +32,14 @@ class Patience:
     """How long the world waits, on the wall clock: for everybody's hello, for a tick's dones, and until one is lost.
 
     In lockstep a done that does not come in `tick_s` is lost with its agent. In real time the tick goes on without it,
-    and `lost_s` decides.
+    and `lost_s` decides. Who is lost may be back for `back_s`, if it was the link that was cut: so long the mission is
+    not over for it.
     """
 
     join_s: float
     tick_s: float
     lost_s: float
+    back_s: float
     lockstep: bool
 
 
@@ -82,7 +84,8 @@ class RemoteCrew:
         self._heard_at_s: dict[int, float] = {}
         self._new: set[int] = set()  # its radio has not been waiting for what is under way
         self._dead: set[int] = set()  # seen to die, from another thread
-        self._news: dict[int, Event] = {}
+        self._lost_at_s: dict[int, float] = {}
+        self._news: dict[int, list[Event]] = {}
         self._strangers: set[int] = set()
         self._tick = HELLO_TICK  # under way
         bus.subscribe(keys.every_done, lambda key, payload: self._mail.put(sender(key), payload))
@@ -115,6 +118,8 @@ class RemoteCrew:
             RuntimeError: in lockstep, a frame that was sent did not arrive.
         """
         self._collect()
+        if self._patience.lockstep:
+            self._await_anybody()
         tick, waiting = cues[0].tick, {uid for uid in self._dones if uid not in self._missing}
         self._tick = tick
         for uid in waiting:
@@ -148,7 +153,7 @@ class RemoteCrew:
                 self._hear(uid, done)
         while self._dead:
             uid = self._dead.pop()
-            if uid not in self._missing:
+            if uid in self._dones and uid not in self._missing:
                 self._lose(uid, "its process has died, or its link is cut")
 
     def _hear(self, uid: int, done: Done) -> None:
@@ -164,12 +169,14 @@ class RemoteCrew:
                 done = structs.replace(done, spoke=False)
                 self._say(uid, Event(Level.WARNING, "its process is back"))
             self._missing.discard(uid)
+            self._lost_at_s.pop(uid, None)
             self._new.add(uid)
         elif done.tick == HELLO_TICK:
             return  # said again before our cue came
-        elif done.tick < self._dones[uid].tick:
+        self._news.setdefault(uid, []).extend(done.status.events)
+        if uid in self._dones and HELLO_TICK < done.tick < self._dones[uid].tick:
             return  # late: we know better by now
-        self._dones[uid] = done
+        self._dones[uid] = structs.replace(done, status=structs.replace(done.status, events=()))
         self._heard_at_s[uid] = self._awake.now_s()
         if done.leaves:
             self._missing.add(uid)
@@ -180,21 +187,35 @@ class RemoteCrew:
         self._say(uid, Event(Level.ERROR, why))
         last = self._dones[uid]
         gone = structs.replace(last.status, activity=Activity.LOST, tags=(), calls=(), helping=None, mates=())
-        self._dones[uid] = structs.replace(last, status=gone, on_ground=True, ready=False, unheard=True)
+        self._dones[uid] = structs.replace(last, status=gone, ready=False)
+        self._lost_at_s[uid] = self._awake.now_s()
 
     def _say(self, uid: int, event: Event) -> None:
         """To whoever watches, and with the agent's next status to whoever observes."""
-        self._news[uid] = event
+        self._news.setdefault(uid, []).append(event)
         self._tell(uid, event)
 
     def _now(self, uid: int, tick: int) -> Done:
-        """What is known of an agent in this tick: its done, or its last one with nothing new in it."""
-        done, news = self._dones[uid], self._news.pop(uid, None)
+        """What is known of an agent in this tick: its done, or its last one with nothing new but what came late."""
+        done, status = self._dones[uid], self._dones[uid].status
         if done.tick != tick:
-            done = structs.replace(done, spoke=False, status=structs.replace(done.status, events=(), knowledge=None))
-        if news is not None:
-            done = structs.replace(done, status=structs.replace(done.status, events=(*done.status.events, news)))
-        return done
+            done, status = structs.replace(done, spoke=False), structs.replace(status, knowledge=None)
+        if not self._may_be_back(uid):
+            done = structs.replace(done, on_ground=True, unheard=True)
+        news = self._news.pop(uid, None)
+        return structs.replace(done, status=structs.replace(status, events=tuple(news)) if news else status)
+
+    def _may_be_back(self, uid: int) -> bool:
+        lost_at_s = self._lost_at_s.get(uid)
+        return lost_at_s is None or self._awake.now_s() - lost_at_s < self._patience.back_s
+
+    def _await_anybody(self) -> None:
+        """In lockstep time stands still while everybody is cut off."""
+        while self._dones.keys() <= self._missing and any(self._may_be_back(uid) for uid in self._lost_at_s):
+            if self._stop():
+                return
+            self._mail.wait(self._lost_at_s, timeout_s=LOOK_S)
+            self._collect()
 
     def _await_frames(self, n_frames: int) -> None:
         deadline_s = monotonic() + self._patience.tick_s

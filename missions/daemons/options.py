@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from hashlib import sha256
 from math import inf, isinf
+from pathlib import Path
 
 from comms.credentials import Credentials
 from comms.endpoint import is_local
@@ -48,5 +50,20 @@ def await_world_s(mission: Mission, options: DaemonOptions) -> float:
 
 
 def fingerprint(mission: Mission, speed: float) -> str:
-    """The same for two processes if they were given the same mission, and the same pace: both must be the world's."""
-    return sha256(f"{mission.model_dump_json()} {speed}".encode()).hexdigest()[:16]
+    """The same for two processes if they were given the same mission, and the same pace: both must be the world's.
+
+    Files count by what is in them: on another computer they lie elsewhere. A signing key is each computer's own affair.
+    """
+    vehicle = mission.vehicle.model_copy(update={"signing_key": None})
+    told = _by_content(mission.model_copy(update={"vehicle": vehicle}).model_dump())
+    return sha256(f"{told} {speed}".encode()).hexdigest()[:16]
+
+
+def _by_content(value: object) -> object:
+    if isinstance(value, Mapping):
+        return {key: _by_content(part) for key, part in value.items()}
+    if isinstance(value, list | tuple):
+        return [_by_content(part) for part in value]
+    if isinstance(value, Path):
+        return sha256(value.read_bytes()).hexdigest() if value.is_file() else value.name
+    return value

@@ -128,7 +128,8 @@ class Seat:
         began_s = monotonic()
         done = self.side.tick(self.orders.amend(cue))
         self.watch.see(done, time_s=cue.tick * self._mission.tick_s, late_s=cue.late_s, busy_s=monotonic() - began_s)
-        if self.orders.leave and done.status.activity is Activity.LANDED:
+        is_down = done.on_ground and done.status.activity in (Activity.LANDED, Activity.LOST)
+        if self.orders.leave and (is_down or done.unheard):
             done = structs.replace(done, leaves=True)
             self.over = True
         self.last = done

@@ -11,6 +11,7 @@ from functools import partial
 from rich.console import Console
 
 from comms.access import Gate, Place
+from comms.endpoint import is_local
 from comms.keys import WORLD, Keys
 from comms.session import BusError, Network, Question, open_router
 from missions.daemons.crew import CrewError, Patience, RemoteCrew
@@ -153,10 +154,16 @@ def _explain(side: WorldSide) -> None:
 
 
 def _patience(mission: Mission, daemon: DaemonOptions) -> Patience:
-    if daemon.lockstep:
-        return Patience(join_s=daemon.join_s, tick_s=LOST_S, lost_s=LOST_S, lockstep=True)
-    tick_s = TICK_SHARE * mission.tick_s / daemon.speed
-    return Patience(join_s=daemon.join_s, tick_s=tick_s, lost_s=LOST_IN_REAL_TIME_S, lockstep=False)
+    lockstep = daemon.lockstep
+    return Patience(
+        join_s=daemon.join_s,
+        tick_s=LOST_S if lockstep else TICK_SHARE * mission.tick_s / daemon.speed,
+        lost_s=LOST_S if lockstep else LOST_IN_REAL_TIME_S,
+        back_s=0.0
+        if is_local(daemon.endpoint)
+        else mission.agents.world_timeout_s / (1.0 if lockstep else daemon.speed),
+        lockstep=lockstep,
+    )
 
 
 class _Desk:

@@ -90,9 +90,9 @@ class Phases:
         if self.now is Phase.PREPARE:
             # An agent that cannot fly must not keep the others on the ground.
             waiting = [done for done in dones if done.status.activity is not Activity.LOST]
-            if not waiting or in_phase_s >= PREPARE_LIMIT_S:
+            if nobody_left or in_phase_s >= PREPARE_LIMIT_S:
                 return Phase.RETURN
-            return Phase.MISSION if self._settled(next_tick, waiting) else Phase.PREPARE
+            return Phase.MISSION if waiting and self._settled(next_tick, waiting) else Phase.PREPARE
         return Phase.RETURN if self.complete or nobody_left else Phase.MISSION
 
     def _leave_to_persons(self, tick: int, dones: Sequence[Done]) -> None:

@@ -39,3 +39,12 @@ def test_nobody_waits_for_one_who_is_given_up_nor_longer_than_agreed() -> None:
     assert monotonic() - began_s < LONG_S / 2
     mail.wait(range(2), timeout_s=0.0)
     assert mail.take() == {0: b"here"}
+
+
+def test_who_is_given_up_before_anybody_waits_is_not_waited_for() -> None:
+    mail = Mailbox([1, 2])
+    mail.give_up(1)
+    mail.put(2, b"here")
+    began_s = monotonic()
+    mail.wait([1, 2], timeout_s=60.0)
+    assert monotonic() - began_s < 30.0

@@ -90,6 +90,25 @@ def test_who_is_alone_for_too_long_flies_home_and_the_others_go_on(tmp_path: Pat
         assert [world.wait(), others.wait()] == [0, 0], world.output
 
 
+@pytest.mark.parametrize("speed", ["2", "max"])
+def test_a_mission_whose_agents_are_all_cut_off_waits_for_them(tmp_path: Path, speed: str) -> None:
+    file = tmp_path / "report.json"
+    mission = ("quickstart", *SMALL, "--speed", speed, "--duration", "400" if speed == "max" else "20")
+    mission = (*mission, "--set", "agents.may_lose=3")
+    with (
+        two_machines() as machines,
+        machines.swarm(GROUND, "world", *mission, *LISTEN, "--insecure", "--report", str(file)) as world,
+        machines.swarm(DRONE, "agent", *mission, "--connect", ENDPOINT, "--id", "0-2") as drones,
+    ):
+        world.wait_for("the mission begins")
+        with machines.cut(Cut.SILENT):
+            world.wait_for(CUT)
+            sleep(2.0)
+        world.wait_for(BACK)
+        assert [world.wait(), drones.wait()] == [0, 0], world.output + drones.output
+    assert drones.output.count("landed and disarmed") == 3
+
+
 def test_in_lockstep_the_world_goes_on_and_time_stands_still_for_who_is_cut_off() -> None:
     mission = ("quickstart", *SMALL, "--duration", "100000", "--set", "agents.may_lose=1")
     with (

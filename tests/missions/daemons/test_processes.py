@@ -7,10 +7,13 @@ import signal
 import subprocess
 import sys
 from pathlib import Path
+from time import sleep
 from typing import Any
 
 import pytest
 
+from missions.daemons.options import fingerprint
+from missions.load import load_mission
 from tests.missions.daemons.swarm import COMMAND, ROOT, SMALL, children, free_endpoint, kill, swarm, wait_until_gone
 
 LONG_S = 40.0
@@ -156,7 +159,8 @@ def test_an_agent_that_is_asked_to_end_lands_first_and_the_others_go_on(tmp_path
     assert {fault["agent"] for fault in report["faults"]} == {2}
 
 
-def test_agents_whose_world_is_killed_fly_home() -> None:
+@pytest.mark.parametrize("signals", [(signal.SIGKILL,), (signal.SIGTERM, signal.SIGTERM)], ids=["killed", "told twice"])
+def test_agents_whose_world_ends_at_once_fly_home(signals: tuple[signal.Signals, ...]) -> None:
     endpoint = free_endpoint()
     mission = ("quickstart", *SMALL, *LONG)
     with (
@@ -164,10 +168,35 @@ def test_agents_whose_world_is_killed_fly_home() -> None:
         swarm("agent", *mission, "--connect", endpoint, "--id", "0-2") as agents,
     ):
         world.wait_for("the mission begins")
-        world.process.kill()
+        for number in signals:
+            world.process.send_signal(number)
+            sleep(0.3)  # two of a kind would be one
         assert agents.wait() == 1, agents.output
     assert "the world has gone: flying home" in agents.output
     assert agents.output.count("landed and disarmed") == 3
+
+
+def test_an_agent_that_the_mission_does_not_have_comes_and_goes() -> None:
+    endpoint = free_endpoint()
+    mission = ("narrow", "--set", "agents.count=2", "--listen", endpoint, "--join-timeout", "60")
+    other = ("narrow", "--set", "agents.count=9", "--connect", endpoint, "--id", "8")
+    with swarm("world", *mission) as world, swarm("agent", *other) as stranger:
+        stranger.wait_for("ready")
+        stranger.process.terminate()
+        assert stranger.wait() == 0
+        with pytest.raises(subprocess.TimeoutExpired):
+            world.process.wait(1.0)
+
+
+def test_a_mission_is_the_same_wherever_its_files_lie(tmp_path: Path) -> None:
+    prints = []
+    for folder, rows in (("a", "0,0,1,1"), ("b", "0,0,1,1"), ("c", "0,0,1,2")):
+        here = tmp_path / folder
+        here.mkdir()
+        (here / "tracks.csv").write_text(f"t,id,x,y\n{rows}\n9,0,2,2\n")
+        (here / "mine.yaml").write_text("name: mine\ntargets: {motion: tracks, file: tracks.csv}\n")
+        prints.append(fingerprint(load_mission(str(here / "mine.yaml")), 1.0))
+    assert prints[0] == prints[1] != prints[2]
 
 
 def test_nobody_waits_for_ever() -> None:
