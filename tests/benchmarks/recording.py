@@ -4,7 +4,8 @@
 
 A mission is flown without and with a recorder, in one process and as fast as it goes. What the processor spends more is
 the recorder's, its threads and the agents' answers to it included; `of a tick` holds it against a tick in real time.
-Bytes are of mission time: as written (what a killed run leaves), and optimized.
+Bytes are of two recordings, the other one a third as long: what every recording has (names, styles, views, the index),
+and what each minute of mission adds; as written (what a killed run leaves), and optimized.
 """
 
 from __future__ import annotations
@@ -70,23 +71,33 @@ def fly(mission: Mission, path: Path | None) -> Cost:
         return Cost(spent_s, flight.side.tick, flight.clock_s / 60, written, kept)
 
 
+def _split(less: int, more: int, short_min: float, long_min: float) -> tuple[str, str]:
+    """What does not grow with time and what a minute adds, in MB, from the bytes of two recordings."""
+    a_minute = (more - less) / (long_min - short_min)
+    return f"{(more - a_minute * long_min) / 1e6:.2f}", f"{a_minute / 1e6:.2f}"
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description="What a recording costs.")
-    parser.add_argument("--duration", type=float, default=60.0, help="seconds of mission")
+    parser.add_argument("--duration", type=float, default=120.0, help="seconds of mission")
     options = parser.parse_args()
-    table = Table("agents + targets", "ms a tick", "of a tick", "MB/min written", "MB/min optimized", box=None)
+    heads = ("agents + targets", "ms a tick", "of a tick", "MB written", "and a minute", "MB optimized", "and a minute")
+    table = Table(*heads, box=None)
     with TemporaryDirectory() as folder:
         for name, changes in SIZES.items():
-            texts = (*changes, f"duration_s={options.duration:g}")
-            mission = load_mission("quickstart", overrides=[Override(text) for text in texts])
-            bare, recorded = fly(mission, None), fly(mission, Path(folder) / "bench.rrd")
+            mission, short = (
+                load_mission("quickstart", overrides=[Override(text) for text in (*changes, f"duration_s={span_s:g}")])
+                for span_s in (options.duration, options.duration / 3)
+            )
+            path = Path(folder) / "bench.rrd"
+            bare, recorded, less = fly(mission, None), fly(mission, path), fly(short, path)
             more_s = (recorded.spent_s - bare.spent_s) / recorded.ticks
             table.add_row(
                 name,
                 f"{1e3 * more_s:.2f}",
                 f"{more_s / mission.tick_s:.1%}",
-                f"{recorded.written / 1e6 / recorded.minutes:.2f}",
-                f"{recorded.kept / 1e6 / recorded.minutes:.2f}",
+                *_split(less.written, recorded.written, less.minutes, recorded.minutes),
+                *_split(less.kept, recorded.kept, less.minutes, recorded.minutes),
             )
     Console().print(table)
 
