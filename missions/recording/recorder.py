@@ -58,8 +58,8 @@ class Recorder:
     Attributes:
         server_url: where a viewer on this machine can join in, and page_url: the page for browsers; None if not live.
 
-    A killed process loses the last second, and what it had no time for yet: at real time nothing, as fast as it goes
-    the queue's five seconds of mission. `swarm review` repairs what it leaves.
+    A killed process loses what was not flushed: a second in real time; as fast as it goes what waits in the queue,
+    too, some seconds of mission. `swarm review` repairs what it leaves.
     """
 
     def __init__(

@@ -22,7 +22,8 @@ EXAMPLES = """examples:
   swarm review out/quickstart.rrd --check 'coverage > .9 and events.target_loss < 20'
   swarm review out/quickstart.rrd --json | jq .coverage
 
-All of it comes from the recording alone. One whose recorder was killed (F.rrd.part) is repaired to be read.
+All of it comes from the recording alone, of a long mission from F.0002.rrd and so on, too. One whose recorder was
+killed (F.rrd.part) is repaired to be read.
 Exit codes: 0 done, 1 a check fails, 2 bad input."""
 
 
