@@ -24,8 +24,8 @@ AGENT = """examples:
   swarm agent field.yaml --id 0 --alone              no world: then swarm resume, on the same computer (docs/field.md)
 
 The mission, what changes it, and --speed must be the world's. Ends when the world says that the mission is over.
-SIGTERM: fly home, land, disarm, exit 0; a second one: at once. An agent that does not hear the world holds still for the
-mission's agents.world_timeout_s; then, or when the world ends, it flies home by itself, and the code is 1."""
+SIGTERM: fly home, land, disarm, exit 0; a second one: at once. Who does not hear the world holds still for the
+mission's agents.world_timeout_s; then, or when the world ends, it flies home, and the code is 1."""
 
 RECORD = """examples:
   swarm record quickstart --record out/q.rrd
