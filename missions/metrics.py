@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import hypot, inf
 
+from comms.cells import Cells
 from comms.frames import Vec3
 from comms.status import Activity, AgentStatus, Level
 from missions.coverage import Coverage
@@ -128,10 +129,11 @@ class Metrics:
     def _watch_separation(self, observation: Observation) -> None:
         """Agents on one layer of air (there are more agents than layers) must keep apart by themselves."""
         places = [_on_grid(truth.position_m) for truth in observation.truths]
+        cells = Cells([place[:2] for place in places], range_m=CLOSE_M)
         for low, (x, y, z) in enumerate(places):
-            for high in range(low + 1, len(places)):
+            for high in cells.near(x, y):
                 other_x, other_y, other_z = places[high]
-                if abs(z - other_z) < CLOSE_M and hypot(x - other_x, y - other_y) < CLOSE_M:
+                if high > low and abs(z - other_z) < CLOSE_M and hypot(x - other_x, y - other_y) < CLOSE_M:
                     self._met(observation.time_s, low, high)
 
     def _met(self, time_s: float, low: int, high: int) -> None:

@@ -50,11 +50,10 @@ class _Child:
         with suppress(ProcessLookupError):
             self._process.send_signal(number)
 
-    def end(self) -> None:
-        """See that it ends: asked first, then forced."""
-        self.signal(signal.SIGTERM)
+    def end(self, deadline_s: float) -> None:
+        """See that it ends, who was asked to: by force, if it still runs at that time."""
         try:
-            self._process.wait(GOING_S)
+            self._process.wait(max(0.0, deadline_s - monotonic()))
         except subprocess.TimeoutExpired:
             self._process.kill()
             self._process.wait()
@@ -87,8 +86,7 @@ def run_processes(plans: Sequence[ProcessPlan], *, endpoint: str, console: Conso
                 child.signal(signal.SIGKILL)
             return STOPPED
         finally:
-            for child in children:
-                child.end()
+            _end(children)
 
 
 def _watch(children: Sequence[_Child], ending: Ending, console: Console) -> int:
@@ -107,6 +105,15 @@ def _watch(children: Sequence[_Child], ending: Ending, console: Console) -> int:
     code = max((_exit_code(child.code) for child in vital if child.code is not None), default=FAILED)
     _await_landing(children)
     return code
+
+
+def _end(children: Sequence[_Child]) -> None:
+    """See that all end. They have one time to go, however many they are."""
+    for child in children:
+        child.signal(signal.SIGTERM)
+    deadline_s = monotonic() + GOING_S
+    for child in children:
+        child.end(deadline_s)
 
 
 def _await_landing(children: Sequence[_Child]) -> None:
