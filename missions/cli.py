@@ -1,18 +1,19 @@
 """The command line: `swarm VERB ...`. What each verb is lies in `missions.commands`.
 
-Exit codes: 0 done, 1 the mission failed, 2 bad input, 130 stopped by Ctrl-C. Mistakes in a mission go to standard
-error, one line each.
+Exit codes: 0 done, 1 the mission failed, 2 bad input, 130 stopped by Ctrl-C, 141 nobody reads what it prints (a flight
+goes on). Mistakes in a mission go to standard error, one line each.
 """
 
 from __future__ import annotations
 
 import argparse
+import os
 import re
 import sys
 from collections.abc import Sequence
 
 from missions.commands import COMMANDS
-from missions.commands.command import BAD_INPUT, DONE, FAILED, STOPPED, Command
+from missions.commands.command import BAD_INPUT, DONE, FAILED, STOPPED, UNREAD, Command
 from missions.problems import InputError
 
 __all__ = ["BAD_INPUT", "DONE", "FAILED", "STOPPED", "main"]
@@ -37,12 +38,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return stop.code if isinstance(stop.code, int) else BAD_INPUT
     command: Command = options.command
     try:
-        return command.run(options)
+        code = command.run(options)
+        sys.stdout.flush()
+        return code
     except InputError as error:
         sys.stderr.write(f"{error}\n")
         return BAD_INPUT
     except KeyboardInterrupt:
         return STOPPED
+    except (BrokenPipeError, SystemExit):  # rich makes the one of the other
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # or Python complains when it exits
+        return UNREAD
 
 
 def _joined(arguments: Sequence[str]) -> list[str]:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import signal
 import time
-from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from collections.abc import Sequence
+from contextlib import ExitStack
 from datetime import UTC, datetime
 from math import acos, isinf
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from rich.console import Console
 
@@ -16,6 +15,7 @@ from comms.clock import Lockstep, Pace, RealTime
 from comms.session import open_local_bus
 from missions.checkout import commit
 from missions.compose import cos_half_opening
+from missions.ending import Ending
 from missions.faults.costs import Costs
 from missions.faults.schedule import spells_of
 from missions.flight import Flight
@@ -27,6 +27,7 @@ from missions.metrics import Metrics
 from missions.mission import Mission
 from missions.observation import Observer
 from missions.options import LaunchOptions
+from missions.outlet import outlet_console
 from missions.plan import coverage_floor
 from missions.problems import InputError, OutputError
 from missions.progress import progress_on
@@ -42,54 +43,41 @@ DONE, FAILED, STOPPED = 0, 1, 130
 EXPLAIN_EVERY_S, EXPLAINED_A_S = 1.0, 25
 
 
-class StopRequest:
-    """Ctrl-C, once: come home. A second time: at once (KeyboardInterrupt)."""
-
-    def __init__(self, console: Console) -> None:
-        self.asked = False
-        self._console = console
-
-    @contextmanager
-    def listening(self) -> Iterator[StopRequest]:
-        """Listen while a flight is under way."""
-        before = signal.signal(signal.SIGINT, self._hear)
-        try:
-            yield self
-        finally:
-            signal.signal(signal.SIGINT, before)
-
-    def _hear(self, number: int, frame: Any) -> None:
-        if self.asked:
-            raise KeyboardInterrupt
-        self.asked = True
-        self._console.print("Stopping: the swarm comes home and lands. Ctrl-C again stops at once.")
-
-
 def launch(mission: Mission, *, options: LaunchOptions) -> int:
     """Fly a mission to its report and recording. Returns the exit code.
 
     Raises:
         InputError: what only a launch can find out is wrong (no recorder installed, a file that cannot be written).
     """
-    console = Console(stderr=options.report == "-")
+    console = outlet_console(stderr=options.report == "-")
     check_files(report=options.report, record=options.record)
-    metrics, request = Metrics(costs=Costs(mission.faults, tick_s=mission.tick_s)), StopRequest(console)
+    metrics = Metrics(costs=Costs(mission.faults, tick_s=mission.tick_s))
+    ending = Ending(lambda text: console.print(f"Stopping: {text}.", markup=False))
     with (
         open_local_bus() as bus,
         open_transports(mission, range(mission.agents.count)) as transports,
-        request.listening(),
+        ending.listening(),
     ):
         flight = Flight(mission, bus, transports)
         began_s = time.monotonic()
-        kept = _fly(flight, metrics, request, console, options)
-        report = make_report(flight.side, metrics, wall_s=time.monotonic() - began_s, recording=options.record)
-    publish(report, to=options.report, console=console)
-    if request.asked:
-        return STOPPED
+        try:
+            kept = _fly(flight, metrics, ending, console, options)
+        except InputError:
+            raise  # it has not begun
+        except BaseException as error:
+            why = "at once, in the air or not" if isinstance(error, KeyboardInterrupt) else repr(error)
+            metrics.fault(flight.clock_s, None, f"the flight was broken off: {why}")
+            raise
+        finally:
+            if flight.side.tick > 0:
+                report = make_report(flight.side, metrics, wall_s=time.monotonic() - began_s, recording=options.record)
+                publish(report, to=options.report, console=console)
+    if ending.asked:
+        return STOPPED if ending.interrupted else DONE
     return DONE if flight.complete and kept else FAILED
 
 
-def _fly(flight: Flight, metrics: Metrics, request: StopRequest, console: Console, options: LaunchOptions) -> bool:
+def _fly(flight: Flight, metrics: Metrics, ending: Ending, console: Console, options: LaunchOptions) -> bool:
     """Fly, with everybody watching who should. Returns whether all was kept that was to be kept."""
     mission = flight.mission
     kept = True
@@ -123,7 +111,7 @@ def _fly(flight: Flight, metrics: Metrics, request: StopRequest, console: Consol
         )
         observers.append(stack.enter_context(progress))
         try:
-            flight.run(pace=pace_of(mission, options.speed), observers=observers, stop=lambda: request.asked)
+            flight.run(pace=pace_of(mission, options.speed), observers=observers, stop=lambda: ending.asked)
         finally:
             kept = recorder is None or _closed(recorder, metrics, flight)
             kept = _logged(logs, metrics, flight) and kept

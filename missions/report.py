@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import platform
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -28,6 +28,7 @@ Report = dict[str, Any]
 
 PACKAGES = ("swarm-mission-stack", "eclipse-zenoh", "pymavlink")
 _DIGITS = 6
+_FAULTS_SHOWN = 10
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -136,7 +137,11 @@ def check_files(*, report: str | None, record: Path | None) -> None:
     if record is not None and path.resolve() == record.resolve():
         raise InputError(f"--report: got {report}, where the recording goes; allowed: another file")
     try:
-        path.open("a").close()
+        if path.exists():
+            path.open("a").close()
+        else:
+            path.touch()
+            path.unlink()
     except OSError as error:
         raise InputError(f"--report: got {report}; allowed: a file that can be written ({error.strerror})") from error
 
@@ -146,7 +151,10 @@ def publish(report: Report, *, to: str | None, console: Console) -> None:
     if to == "-":
         sys.stdout.write(as_json(report))
     elif to is not None:
-        Path(to).write_text(as_json(report), encoding="utf-8")
+        # Whole or not at all: a script that waits for the file must not find half of it.
+        part = Path(f"{to}.part")
+        part.write_text(as_json(report), encoding="utf-8")
+        part.replace(to)
     console.print(as_table(report))
 
 
@@ -158,14 +166,15 @@ def as_json(report: Report) -> str:
 def as_table(report: Report) -> Table:
     """The report as a person wants it: one page, the important things first."""
     from rich.table import Table
+    from rich.text import Text
 
     table = Table(
         title=f"{report['mission']}, seed {report['seed']}", title_style="bold", title_justify="left", box=None
     )
     table.add_column(style="dim")
     table.add_column()
-    for name, text in _lines(report).items():
-        table.add_row(name, text)
+    for name, text in (*_lines(report).items(), *_faults(report["faults"]), *_injected(report["injected"])):
+        table.add_row(Text(name), Text(text))
     return table
 
 
@@ -189,22 +198,25 @@ def _lines(report: Report) -> Mapping[str, str]:
         lines["time"] = f"{timing['wall_s']:.1f} s, {timing['realtime_factor']} times real time from power-on to landed"
     if report["recording"]:
         lines["recording"] = report["recording"]
-    for fault in report["faults"][:10]:
+    return lines
+
+
+def _faults(faults: Sequence[Mapping[str, Any]]) -> Iterator[tuple[str, str]]:
+    """What should not have happened, a line each, as far as one looks at it."""
+    for fault in faults[:_FAULTS_SHOWN]:
         who = "mission" if fault["agent"] is None else f"A{fault['agent']}"
-        lines[f"fault {fault['time_s']:.1f} s, {who}"] = fault["what"]
-    return lines | _injected(report["injected"])
+        yield f"fault {fault['time_s']:.1f} s, {who}", fault["what"]
+    if len(faults) > _FAULTS_SHOWN:
+        yield "faults", f"and {len(faults) - _FAULTS_SHOWN} more: --report"
 
 
-def _injected(faults: Sequence[Mapping[str, Any]]) -> dict[str, str]:
+def _injected(faults: Sequence[Mapping[str, Any]]) -> Iterator[tuple[str, str]]:
     """Every fault of the mission's own, a line each."""
-    lines = {}
     for fault in faults:
         seen = ", ".join(f"{_percent(share)} {when}" for when, share in fault["coverage"].items())
         after_s = fault["noticed_after_s"]
         noticed = "not noticed" if after_s is None else f"noticed after {after_s:.1f} s by A{fault['noticed_by']}"
-        what = f"{fault['what']}, {fault['whom']}"
-        lines[f"at {fault['at_s']:g} s {what}"] = f"{noticed}; coverage {seen}"
-    return lines
+        yield f"at {fault['at_s']:g} s {fault['what']}, {fault['whom']}", f"{noticed}; coverage {seen}"
 
 
 def _percent(share: float | None) -> str:

@@ -9,7 +9,7 @@ from importlib.util import find_spec
 
 from missions.problems import InputError
 
-DONE, FAILED, BAD_INPUT, STOPPED = 0, 1, 2, 130
+DONE, FAILED, BAD_INPUT, STOPPED, UNREAD = 0, 1, 2, 130, 141
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -25,13 +25,13 @@ from comms.status import Activity, Event
 from comms.transport import Transport
 from missions import compose
 from missions.daemons.airwaves import open_airwaves
-from missions.daemons.ending import Ending
 from missions.daemons.log import Log
 from missions.daemons.options import DaemonOptions, await_world_s, fingerprint
 from missions.daemons.orders import Answer, Verb, encode_answer
 from missions.daemons.seat import Seat
 from missions.daemons.security import silence, why
 from missions.daemons.wire import OVER, decode_cue
+from missions.ending import Ending
 from missions.links import open_transports
 from missions.mission import Mission
 from missions.sides.agent import agent_sides

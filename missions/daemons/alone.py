@@ -25,10 +25,10 @@ from comms.sight import Eyes
 from comms.status import Activity
 from missions import compose
 from missions.daemons.airwaves import open_airwaves
-from missions.daemons.ending import Ending
 from missions.daemons.log import Log
 from missions.daemons.options import DaemonOptions
 from missions.daemons.orders import Answer, Orders, Verb, Watch, encode_answer
+from missions.ending import Ending
 from missions.links import open_transports
 from missions.mission import Mission
 from missions.observation import Phase

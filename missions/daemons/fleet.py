@@ -116,7 +116,7 @@ def result_table(answers: Answers) -> Table:
         if answer is None:
             table.add_row(mission, who, "failed", "does not answer", style=_RED)
         else:
-            table.add_row(mission, who, "ok" if answer.obeyed else "failed", answer.text)
+            table.add_row(mission, who, "ok" if answer.obeyed else "failed", _plain(answer.text))
     return table
 
 
@@ -146,7 +146,7 @@ def _cells(report: Report) -> Sequence[str | Text]:
     return (
         f"{report.time_s:.1f}",
         Text(report.activity.value, hex_color(ACTIVITY_INKS[report.activity])),
-        report.flight_mode,
+        _plain(report.flight_mode),
         "" if report.battery is None else f"{report.battery:.0%}",
         " ".join(f"T{target}" for target in report.tags),
         f"{report.mates}",
@@ -155,6 +155,11 @@ def _cells(report: Report) -> Sequence[str | Text]:
         f"{report.late_s * 1000:.0f} ms",
         f"{report.busy_s * 1000:.0f} ms",
     )
+
+
+def _plain(text: str) -> Text:
+    """What came over the network, as nothing but letters: no markup, and nothing that moves a cursor."""
+    return Text("".join(letter if letter.isprintable() else "?" for letter in text))
 
 
 def _table(columns: Sequence[str]) -> Table:

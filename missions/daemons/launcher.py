@@ -15,8 +15,8 @@ from time import monotonic, sleep
 
 from rich.console import Console
 
-from missions.daemons.ending import Ending
 from missions.daemons.processes import ProcessPlan
+from missions.ending import Ending
 from missions.launch import FAILED, STOPPED
 from missions.problems import InputError
 

@@ -6,10 +6,10 @@ time_s=12.3 level=warning who=agent-4 text="link lost: no heartbeat for 3 s"
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Iterable
 
 from comms.status import Event, Level
+from missions.outlet import Outlet
 
 LEVELS: tuple[Level, ...] = (Level.INFO, Level.WARNING, Level.ERROR)
 
@@ -24,14 +24,15 @@ class Log:
     def __init__(self, who: str, *, least: Level) -> None:
         self.time_s = 0.0
         self._who = who
+        self._outlet = Outlet(stderr=True)
         self._shown = frozenset(LEVELS[LEVELS.index(least) :])
 
     def say(self, level: Level, text: str, *, who: str | None = None) -> None:
         """One line, if it matters enough."""
         if level in self._shown:
             line = f"time_s={self.time_s:.1f} level={level} who={who or self._who} text={json.dumps(text)}\n"
-            sys.stderr.write(line)
-            sys.stderr.flush()
+            self._outlet.write(line)
+            self._outlet.flush()
 
     def info(self, text: str) -> None:
         """A line for those who want to know everything."""

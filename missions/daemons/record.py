@@ -11,12 +11,12 @@ import msgspec
 
 from comms.keys import RECORDER, WORLD, Keys
 from comms.session import BusError, Network, open_client
-from missions.daemons.ending import Ending
 from missions.daemons.feed import KEPT_EVERY_TICKS, WINDOW_TICKS, Kept
 from missions.daemons.log import Log
 from missions.daemons.options import DaemonOptions, await_world_s, fingerprint
 from missions.daemons.security import silence, why
 from missions.daemons.wire import OVER, decode_observation
+from missions.ending import Ending
 from missions.launch import DONE, FAILED, STOPPED, recorder_of
 from missions.mission import Mission
 from missions.options import LaunchOptions

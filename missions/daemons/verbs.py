@@ -17,6 +17,7 @@ from missions.daemons.security import check_all_known, check_complete, check_lis
 from missions.load import load_mission
 from missions.mission import Mission
 from missions.options import LaunchOptions, speed_of
+from missions.outlet import outlet_console
 from missions.problems import InputError
 
 MAX_AGENTS = 250  # a MAVLink system id is one byte
@@ -98,11 +99,9 @@ def launch(mission: Mission, options: argparse.Namespace) -> int:
     ):
         if given:
             raise InputError(f"{option}: not with --processes; allowed: --record, and swarm record --view beside it")
-    from rich.console import Console
-
     from missions.daemons.launcher import run_processes
 
-    return run_processes(processes(mission, options), endpoint=options.listen, console=Console(stderr=True))
+    return run_processes(processes(mission, options), endpoint=options.listen, console=outlet_console(stderr=True))
 
 
 def fleet(verb: str, options: argparse.Namespace) -> int:

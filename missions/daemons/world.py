@@ -15,16 +15,17 @@ from comms.endpoint import is_local
 from comms.keys import WORLD, Keys
 from comms.session import BusError, Network, Question, open_router
 from missions.daemons.crew import CrewError, Patience, RemoteCrew
-from missions.daemons.ending import Ending
 from missions.daemons.feed import Feed
 from missions.daemons.log import Log
 from missions.daemons.options import DaemonOptions, fingerprint
 from missions.daemons.orders import Answer, Verb, encode_answer
+from missions.ending import Ending
 from missions.faults.costs import Costs
 from missions.launch import DONE, FAILED, STOPPED, explain_every_s, pace_of
 from missions.metrics import Metrics
 from missions.mission import Mission
 from missions.observation import Observation, Observer
+from missions.outlet import outlet_console
 from missions.problems import InputError
 from missions.progress import Progress, progress_on
 from missions.report import check_files, make_report, publish
@@ -57,7 +58,7 @@ def world(mission: Mission, daemon: DaemonOptions, options: WorldOptions) -> int
         InputError: it cannot listen there, or a file cannot be written.
     """
     check_files(report=options.report, record=None)
-    console = Console(stderr=options.report == "-")
+    console = outlet_console(stderr=options.report == "-")
     log = Log("world", least=daemon.log_level)
     ending = Ending(log.info)
     with ending.listening(leash=daemon.leash):

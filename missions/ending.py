@@ -1,4 +1,8 @@
-"""How a process is asked to end: SIGTERM, Ctrl-C, or the end of its launcher. Once: land and go. Again: at once."""
+"""How a process is asked to end: a signal, a person's order, or the end of its launcher. It lands, and goes.
+
+SIGTERM, Ctrl-C, and the hangup of its terminal. A second signal means at once, in the air or not; a launcher that ends,
+or an order, is never taken for one.
+"""
 
 from __future__ import annotations
 
@@ -8,10 +12,10 @@ import signal
 import sys
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from types import FrameType
 
-SIGNALS = (signal.SIGTERM, signal.SIGINT)
+SIGNALS = (signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
 PR_SET_PDEATHSIG = 1  # of Linux's prctl: which signal a process gets when who started it ends
 
 
@@ -28,6 +32,7 @@ class Ending:
     def __init__(self, tell: Callable[[str], None]) -> None:
         self.asked = False
         self.interrupted = False
+        self._signaled = False
         self._tell = tell
 
     @contextmanager
@@ -39,7 +44,7 @@ class Ending:
         _wake_with_parent()
         before = {number: signal.signal(number, self._hear) for number in SIGNALS}
         if leash:
-            threading.Thread(target=_feel, name="leash", daemon=True).start()
+            threading.Thread(target=_feel, name="leash", args=(self,), daemon=True).start()
         try:
             yield self
         finally:
@@ -53,8 +58,9 @@ class Ending:
             self._tell("asked to end: landing first; a second time ends at once")
 
     def _hear(self, number: int, frame: FrameType | None) -> None:
-        if self.asked:
+        if self._signaled and number != signal.SIGHUP:  # a terminal that goes says so twice, and is nobody's haste
             raise KeyboardInterrupt
+        self._signaled = True
         self.interrupted = number == signal.SIGINT
         self.ask()
 
@@ -65,8 +71,9 @@ def _wake_with_parent() -> None:
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGCONT)
 
 
-def _feel() -> None:
-    """Wait for the end of standard input, then be asked to end."""
-    while os.read(sys.stdin.fileno(), 4096):
-        pass
-    os.kill(os.getpid(), signal.SIGTERM)
+def _feel(ending: Ending) -> None:
+    """Wait for the end of standard input, then ask."""
+    with suppress(OSError):
+        while os.read(sys.stdin.fileno(), 4096):
+            pass
+    ending.ask()
