@@ -19,6 +19,7 @@ from missions.observation import Observation
 WINDOW_TICKS = 100  # lockstep lets the recorder fall behind so far, and then waits for it
 LOST_S = 30.0  # a recorder that does not get on for so long is lost
 KEPT_EVERY_TICKS = 10
+LOOK_S = 0.2
 
 
 class Kept(msgspec.Struct, frozen=True):
@@ -40,6 +41,7 @@ class Feed:
 
     Args:
         fingerprint: of the mission; a recorder of another one gets nothing.
+        back_s: how long a recorder that has gone may still be back, if it was its link that was cut.
         begin: called when it comes, from another thread. tell: what becomes of it.
 
     Attributes:
@@ -53,6 +55,7 @@ class Feed:
         keys: Keys,
         lockstep: bool,
         fingerprint: str,
+        back_s: float,
         begin: Callable[[], None],
         tell: Callable[[Event], None],
     ) -> None:
@@ -60,12 +63,14 @@ class Feed:
         self._put = bus.publisher(keys.truth)
         self._lockstep = lockstep
         self._fingerprint = fingerprint
+        self._back_s = back_s
         self._begin = begin
         self._tell = tell
         self._is_strange = False
         self._kept: Kept | None = None
         self._progress = threading.Condition()
         self._there = False
+        self._gone_at_s = 0.0
         bus.subscribe(keys.kept, self._hear)
         bus.watch(keys.alive(RECORDER), self._on_change)
 
@@ -88,7 +93,7 @@ class Feed:
         """Pass it on; in lockstep wait for a recorder that is behind."""
         if self._kept is None or self._kept.closed or self.failures:
             return
-        if not self._there:
+        if self._is_gone():
             self._fail(f"the recorder has gone: nothing is recorded from {observation.time_s:.1f} s")
             return
         self._put(encode(observation))
@@ -112,11 +117,15 @@ class Feed:
         with self._progress:
             while self._kept is None or not enough(self._kept):
                 left_s = deadline_s - monotonic()
-                lost = self._kept is not None and not self._there
+                lost = self._kept is not None and self._is_gone()
                 if left_s <= 0.0 or lost or (self._kept is not None and self._kept.failure):
                     return False
-                self._progress.wait(left_s)
+                self._progress.wait(min(left_s, LOOK_S))
         return True
+
+    def _is_gone(self) -> bool:
+        """Whether it is not there, and has not been for so long that it will not be back."""
+        return not self._there and monotonic() - self._gone_at_s >= self._back_s
 
     def _fail(self, why: str) -> None:
         kept = self._kept
@@ -142,5 +151,7 @@ class Feed:
 
     def _on_change(self, key: str, is_there: bool) -> None:
         with self._progress:
+            if self._there and not is_there:
+                self._gone_at_s = monotonic()
             self._there = is_there
             self._progress.notify_all()

@@ -49,6 +49,13 @@ def await_world_s(mission: Mission, options: DaemonOptions) -> float:
     return ENDED_S if is_local(options.endpoint) else mission.agents.world_timeout_s
 
 
+def await_back_s(mission: Mission, options: DaemonOptions) -> float:
+    """How long (wall clock) the world thinks that who was lost may be back: as long as an agent waits for the world."""
+    if is_local(options.endpoint):
+        return 0.0
+    return mission.agents.world_timeout_s / (1.0 if options.lockstep else options.speed)
+
+
 def fingerprint(mission: Mission, speed: float) -> str:
     """The same for two processes if they were given the same mission, and the same pace: both must be the world's.
 

@@ -11,13 +11,12 @@ from functools import partial
 from rich.console import Console
 
 from comms.access import Gate, Place
-from comms.endpoint import is_local
 from comms.keys import WORLD, Keys
 from comms.session import BusError, Network, Question, open_router
 from missions.daemons.crew import CrewError, Patience, RemoteCrew
 from missions.daemons.feed import Feed
 from missions.daemons.log import Log
-from missions.daemons.options import DaemonOptions, fingerprint
+from missions.daemons.options import DaemonOptions, await_back_s, fingerprint
 from missions.daemons.orders import Answer, Verb, encode_answer
 from missions.ending import Ending
 from missions.faults.costs import Costs
@@ -117,6 +116,7 @@ def _run(
         keys=keys,
         lockstep=daemon.lockstep,
         fingerprint=ours,
+        back_s=await_back_s(mission, daemon),
         begin=partial(_explain, side),
         tell=lambda event: log.events([event], who="recorder"),
     )
@@ -160,9 +160,7 @@ def _patience(mission: Mission, daemon: DaemonOptions) -> Patience:
         join_s=daemon.join_s,
         tick_s=LOST_S if lockstep else TICK_SHARE * mission.tick_s / daemon.speed,
         lost_s=LOST_S if lockstep else LOST_IN_REAL_TIME_S,
-        back_s=0.0
-        if is_local(daemon.endpoint)
-        else mission.agents.world_timeout_s / (1.0 if lockstep else daemon.speed),
+        back_s=await_back_s(mission, daemon),
         lockstep=lockstep,
     )
 
