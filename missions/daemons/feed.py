@@ -68,6 +68,7 @@ class Feed:
         self._tell = tell
         self._is_strange = False
         self._kept: Kept | None = None
+        self._first: int | None = None  # the tick at which it came: it may come late
         self._progress = threading.Condition()
         self._there = False
         self._gone_at_s = 0.0
@@ -96,10 +97,13 @@ class Feed:
         if self._is_gone():
             self._fail(f"the recorder has gone: nothing is recorded from {observation.time_s:.1f} s")
             return
+        if self._first is None:
+            self._first = observation.tick
         self._put(encode(observation))
         if self._lockstep:
             due = observation.tick - WINDOW_TICKS
-            if self._kept.tick < due and not self._wait(lambda kept: kept.tick >= due or kept.closed, LOST_S):
+            behind = due >= self._first and self._kept.tick < due
+            if behind and not self._wait(lambda kept: kept.tick >= due or kept.closed, LOST_S):
                 self._fail(f"the recorder does not get on: nothing is recorded from {observation.time_s:.1f} s")
 
     def close(self) -> None:

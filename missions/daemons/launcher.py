@@ -15,11 +15,13 @@ from time import monotonic, sleep
 
 from rich.console import Console
 
+from comms.keys import RECORDER
 from missions.daemons.processes import ProcessPlan
 from missions.ending import Ending
 from missions.launch import FAILED, STOPPED
 from missions.problems import InputError
 
+BAD_INPUT = 2
 LOOK_EVERY_S = 0.1
 # From the end of the world until its agents have landed by themselves, and from a request to end until that is forced.
 LANDING_S = 120.0
@@ -98,7 +100,9 @@ def _watch(children: Sequence[_Child], ending: Ending, console: Console) -> int:
             for child in vital:
                 child.signal(signal.SIGINT if ending.interrupted else signal.SIGTERM)
         for child in children:
-            if child.code not in (None, 0) and child.restarts_left and not ending.asked:
+            if child.plan.identity == RECORDER and child.code == BAD_INPUT:
+                return BAD_INPUT  # it has said why, and the world would wait for it in vain
+            if child.code not in (None, 0, BAD_INPUT) and child.restarts_left and not ending.asked:
                 console.print(f"{child.plan.name} ended with code {child.code}: started again", markup=False)
                 child.restart()
         sleep(LOOK_EVERY_S)

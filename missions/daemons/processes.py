@@ -45,6 +45,7 @@ class ProcessOptions:
 
     Attributes:
         mission_words: the mission and what changes it, as on the command line. speed: as given to --speed, if it was.
+        views: --view, --web: how people look on.
         per_process: agents in one process. restarts: of an agent that fails. keys: the folder of all credentials, if
         the network is secured. insecure: whether that is left out on purpose.
     """
@@ -54,6 +55,7 @@ class ProcessOptions:
     speed: str | None = None
     report: str | None = None
     record: Path | None = None
+    views: tuple[str, ...] = ()
     per_process: int = 1
     restarts: int = 3
     log_level: str = "warning"
@@ -70,7 +72,9 @@ def plan_processes(mission: Mission, options: ProcessOptions) -> tuple[ProcessPl
     report = () if options.report is None else ("--report", options.report)
     connect = (*options.mission_words, "--connect", options.endpoint, *speed, *common)
     unsecured = insecure if mission.radio.endpoints else ()
-    recorded = () if options.record is None else ("--recorded",)
+    kept = () if options.record is None else ("--record", str(options.record))
+    recorder = (*kept, *options.views)
+    recorded = ("--recorded",) if recorder else ()
     plans = [
         ProcessPlan(
             name="world",
@@ -96,8 +100,8 @@ def plan_processes(mission: Mission, options: ProcessOptions) -> tuple[ProcessPl
         name = f"agent {uids}" if first == last else f"agents {uids}"
         identity, words = agents_name((first, last)), ("agent", *connect, *unsecured, "--leash", "--id", uids)
         plans.append(ProcessPlan(name=name, identity=identity, words=words, restarts=options.restarts))
-    if options.record is not None:
-        words = ("record", *connect, "--record", str(options.record))
+    if recorder:
+        words = ("record", *connect, *recorder)
         plans.append(ProcessPlan(name="recorder", identity=RECORDER, words=words))
     return tuple(plans)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import queue
+import sys
 from contextlib import suppress
 from time import monotonic
 from typing import TYPE_CHECKING
@@ -44,6 +45,8 @@ def record(mission: Mission, daemon: DaemonOptions, options: LaunchOptions) -> i
             recorder.__enter__()
         except OutputError as error:
             raise InputError(str(error)) from error
+        if recorder.page_url is not None:
+            sys.stderr.write(f"Watch it in a browser: {recorder.page_url}\n")
         try:
             with open_client(
                 daemon.endpoint,
@@ -81,6 +84,7 @@ class _Reel:
         self._inbox: queue.Queue[bytes] = queue.Queue(4 * WINDOW_TICKS)
         self._last_tick: int | None = None
         self._missing = 0
+        self._over = False
         self._await_world_s = await_world_s(mission, daemon)
         self._gone_at_s: float | None = None
         self._put = bus.publisher(keys.kept)
@@ -110,6 +114,8 @@ class _Reel:
             try:
                 wire = self._inbox.get(timeout=HELLO_EVERY_S)
             except queue.Empty:
+                if self._over:
+                    return DONE
                 gone_at_s = self._gone_at_s
                 if gone_at_s is not None and monotonic() - gone_at_s > self._await_world_s:
                     self._log.error("the world has gone: the recording ends here")
@@ -121,8 +127,6 @@ class _Reel:
                         return FAILED
                     self._tell(Kept(HELLO_TICK, recording=self._path, fingerprint=self._fingerprint))
                 continue
-            if wire == OVER:
-                return DONE
             observation = decode_observation(wire)
             if observation is None:
                 continue
@@ -142,6 +146,9 @@ class _Reel:
         self._put(msgspec.msgpack.encode(kept))
 
     def _hear(self, key: str, payload: bytes) -> None:
+        if payload == OVER:  # there is always room for that
+            self._over = True
+            return
         with suppress(queue.Full):
             self._inbox.put_nowait(payload)
 

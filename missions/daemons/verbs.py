@@ -93,12 +93,11 @@ def launch(mission: Mission, options: argparse.Namespace) -> int:
     """Start all processes of a mission, and stay until it is over."""
     for option, given in (
         ("--gcs", options.gcs),
-        ("--view", options.view),
-        ("--web", options.web),
+        ("--gcs-signing-key", options.gcs_signing_key),
         ("--tlog", options.tlog),
     ):
         if given:
-            raise InputError(f"{option}: not with --processes; allowed: --record, and swarm record --view beside it")
+            raise InputError(f"{option}: not with --processes; allowed: --record, --view, --web")
     from missions.daemons.launcher import run_processes
 
     return run_processes(processes(mission, options), endpoint=options.listen, console=outlet_console(stderr=True))
@@ -145,6 +144,7 @@ def processes(mission: Mission, options: argparse.Namespace) -> tuple[ProcessPla
         speed=None if speed is None else "max" if isinf(speed) else f"{speed}",
         report=given.get("report"),
         record=given.get("record"),
+        views=tuple(f"--{name}" for name in ("view", "web") if given.get(name)),
         per_process=options.processes,
         restarts=options.restarts,
         log_level=options.log_level,

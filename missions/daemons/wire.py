@@ -11,6 +11,8 @@ from missions.observation import Observation
 from missions.sides.exchange import Cue, Done
 
 MAX_BYTES = 1_000_000
+# No vehicle of a mission is farther from home, nor faster: as in the frames of agents.
+FARTHEST_M, FASTEST_M_S = 100_000.0, 500.0
 OVER = b""  # in place of a cue or an observation: the mission is over
 
 T = TypeVar("T")
@@ -37,7 +39,9 @@ def decode_done(wire: bytes, uid: int) -> Done | None:
     if done is None or done.status.uid != uid:
         return None
     truth = done.truth
-    return done if all(map(isfinite, (*truth.position_m, *truth.velocity_m_s, truth.heading_rad))) else None
+    near = all(abs(place) <= FARTHEST_M for place in truth.position_m)
+    slow = all(abs(speed) <= FASTEST_M_S for speed in truth.velocity_m_s)
+    return done if near and slow and isfinite(truth.heading_rad) else None  # NaN is neither
 
 
 def decode_observation(wire: bytes) -> Observation | None:

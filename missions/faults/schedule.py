@@ -96,9 +96,9 @@ class Schedule:
         over = [f"over: {words(spell.fault)}" for spell in self.spells if spell.over_at(tick)]
         return tuple([Event(Level.WARNING, text) for text in begun] + [Event(Level.INFO, text) for text in over])
 
-    def reboots(self, uid: int, tick: int | None) -> bool:
-        """Whether the autopilot of agent `uid` loses its power at this tick."""
-        return (uid, tick) in self._reboots
+    def reboots(self, uid: int, tick: int, *, since: int) -> bool:
+        """Whether the autopilot of agent `uid` loses its power at this tick, or at a skipped one after `since`."""
+        return any((uid, passed) in self._reboots for passed in range(since + 1, tick + 1))
 
     def comes_back(self, uid: int, tick: int) -> bool:
         """Whether a computer that is out, or stands still, at this tick ever goes on."""

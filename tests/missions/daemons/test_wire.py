@@ -19,6 +19,7 @@ from missions.observation import AgentTruth, Observation
 from missions.overrides import Override
 from missions.sides.exchange import Cue, Done
 
+FAR = 1e307  # finite, and nowhere
 DONE = Done(
     tick=3,
     status=AgentStatus(uid=2, activity=Activity.FOLLOW, tags=(1, 4)),
@@ -49,14 +50,14 @@ def test_a_cue_passes_unchanged() -> None:
     assert decode_cue(encode(cue)) == cue
 
 
-@pytest.mark.parametrize("number", [nan, inf, -inf])
+@pytest.mark.parametrize("number", [nan, inf, -inf, FAR])
 def test_a_vehicle_must_be_somewhere(number: float) -> None:
     assert decode_done(encode(DONE), 2) == DONE
     assert decode_done(encode(DONE), 1) is None  # speaks for another
     for truth in (
         AgentTruth((number, 0.0, 0.0), (0.0, 0.0, 0.0), 0.0),
         AgentTruth((0.0, 0.0, 0.0), (0.0, number, 0.0), 0.0),
-        AgentTruth((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), number),
+        AgentTruth((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), number if number != FAR else nan),
     ):
         assert decode_done(encode(structs.replace(DONE, truth=truth)), 2) is None
 

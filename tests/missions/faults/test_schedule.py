@@ -106,6 +106,7 @@ def test_what_is_broken_in_whose_vehicle() -> None:
     wind = {"SIM_WIND_SPD": 6, "SIM_WIND_DIR": 90, "SIM_WIND_TURB": 1}
     assert found.at(25).breakage[0] == wind
     assert found.at(25).breakage[1].items() > wind.items()
-    assert [tick for tick in range(100) if found.reboots(0, tick)] == [50]
-    assert not any(found.reboots(1, tick) for tick in range(100))
+    assert [tick for tick in range(100) if found.reboots(0, tick, since=tick - 1)] == [50]
+    assert not any(found.reboots(1, tick, since=tick - 1) for tick in range(100))
+    assert [tick for tick in range(0, 100, 4) if found.reboots(0, tick, since=tick - 4)] == [52]  # it was skipped
     assert found.at(70).breakage == {0: {"SIM_BATT_CAP_AH": 5.0, "SIM_BATT_VOLTAGE": 12.6}}
