@@ -125,7 +125,7 @@ def happen(case: Case, folder: Path) -> Outcome:
     return Outcome(
         noticed_s=noticed_s,
         code=code,
-        flown_s=json.loads(told)["duration_s"] if (told := report.read_text()) else None,
+        flown_s=json.loads(report.read_text())["duration_s"] if report.exists() else None,
         **_recorded(recording, at_s=at_s, struck_s=beginning_s + at_s),
     )
 
