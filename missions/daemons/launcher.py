@@ -20,12 +20,14 @@ from missions.daemons.processes import ProcessPlan
 from missions.ending import Ending
 from missions.launch import FAILED, STOPPED
 from missions.problems import InputError
+from missions.sides.phases import RETURN_LIMIT_S
 
 BAD_INPUT = 2
 LOOK_EVERY_S = 0.1
-# From the end of the world until its agents have landed by themselves, and from a request to end until that is forced.
-LANDING_S = 120.0
-GOING_S = 3.0
+# From the end of the world until its agents have landed by themselves: they notice, wait for it a while, and fly home.
+LANDING_S = RETURN_LIMIT_S + 60.0
+SAY_EVERY_S = 30.0
+GOING_S = 3.0  # from a request to end until that is forced
 
 
 class _Child:
@@ -107,7 +109,7 @@ def _watch(children: Sequence[_Child], ending: Ending, console: Console) -> int:
                 child.restart()
         sleep(LOOK_EVERY_S)
     code = max((_exit_code(child.code) for child in vital if child.code is not None), default=FAILED)
-    _await_landing(children)
+    _await_landing(children, console)
     return code
 
 
@@ -120,11 +122,16 @@ def _end(children: Sequence[_Child]) -> None:
         child.end(deadline_s)
 
 
-def _await_landing(children: Sequence[_Child]) -> None:
-    """Wait for those who outlive the world."""
-    deadline_s = monotonic() + LANDING_S
-    while any(child.code is None for child in children) and monotonic() < deadline_s:
+def _await_landing(children: Sequence[_Child], console: Console) -> None:
+    """Wait for those who outlive the world, and say for whom."""
+    now_s = monotonic()
+    deadline_s, say_at_s = now_s + LANDING_S, now_s + SAY_EVERY_S
+    while (running := [child.plan.name for child in children if child.code is None]) and now_s < deadline_s:
+        if now_s >= say_at_s:
+            say_at_s += SAY_EVERY_S
+            console.print(f"the world has ended; still under way: {', '.join(running)}", markup=False)
         sleep(LOOK_EVERY_S)
+        now_s = monotonic()
 
 
 def _exit_code(code: int) -> int:
