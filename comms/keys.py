@@ -4,6 +4,7 @@
     swarm/@v1/<mission>/rx/<uid>             air -> that agent alone: what got through, one bundle per tick
     swarm/@v1/<mission>/sight/<uid>          detector on board -> agent without a world: what is in sight
     swarm/@v1/<mission>/alive/<who>          liveliness token: of an agent (its uid), of the world, of the recorder
+    swarm/@v1/<mission>/alive/crew<n>        liveliness token of a world: so many agents belong to its mission
     swarm/@v1/<mission>/cmd/<uid>/<verb>     queryable of an agent: what people tell it, with a result
     swarm/@v1/<mission>/@sim/cue/<uid>       world -> that agent alone: a tick begins, and what its sensor sees
     swarm/@v1/<mission>/@sim/done/<uid>      agent -> world: the tick is done, and where its vehicle truly is
@@ -21,6 +22,7 @@ from dataclasses import dataclass
 WORLD, RECORDER = "world", "recorder"
 _ROOT = "swarm/@v1"
 _ALIVE = re.compile(rf"{_ROOT}/(?P<mission>[A-Za-z0-9][A-Za-z0-9_.-]{{0,63}})/alive/(?P<who>[a-z0-9]+)")
+_CREW = re.compile(r"crew(?P<size>[0-9]{1,5})")
 _MISSION = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
 
 
@@ -60,6 +62,10 @@ class Keys:
     def alive(self, who: int | str) -> str:
         """The token that says `who` is there: an agent's uid, WORLD or RECORDER."""
         return f"{_ROOT}/{self.mission}/alive/{who}"
+
+    def crew(self, n_agents: int) -> str:
+        """The token that says how many agents the mission has, there or not."""
+        return self.alive(f"crew{n_agents}")
 
     @property
     def every_alive(self) -> str:
@@ -110,6 +116,12 @@ def somebody(key: str) -> tuple[Keys, str] | None:
     """Whom an `alive` key names: the keys of its mission, and who; None if it is another key."""
     found = _ALIVE.fullmatch(key)
     return None if found is None else (Keys(found["mission"]), found["who"])
+
+
+def crew_size(who: str) -> int | None:
+    """How many agents there are, if an `alive` key names that and nobody."""
+    found = _CREW.fullmatch(who)
+    return None if found is None else int(found["size"])
 
 
 def verb_of(key: str) -> str:

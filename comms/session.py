@@ -53,7 +53,7 @@ class Question(Protocol):
 class Network(Bus, Protocol):
     """A bus between processes, with who is there, and questions."""
 
-    def declare_alive(self, key: str) -> None: ...
+    def declare_alive(self, key: str) -> Callable[[], None]: ...
 
     def watch(self, key_expression: str, on_change: Callable[[str, bool], None]) -> None: ...
 
@@ -61,7 +61,7 @@ class Network(Bus, Protocol):
 
     def answer(self, key_expression: str, on_question: Callable[[Question], None]) -> None: ...
 
-    def ask(self, key_expression: str, *, timeout_s: float) -> list[tuple[str, bytes]]: ...
+    def ask(self, *key_expressions: str, timeout_s: float) -> list[tuple[str, bytes]]: ...
 
 
 class BusError(Exception):
@@ -107,9 +107,12 @@ class ZenohBus:
 
         self._session.declare_subscriber(key_expression, _direct(forward))
 
-    def declare_alive(self, key: str) -> None:
-        """Be seen there until the session closes or its process dies."""
-        self._kept.append(self._session.liveliness().declare_token(key))
+    def declare_alive(self, key: str) -> Callable[[], None]:
+        """Be seen there until the session closes or its process dies, or what this returns is called."""
+        token = self._session.liveliness().declare_token(key)
+        self._kept.append(token)
+        withdraw: Callable[[], None] = token.undeclare
+        return withdraw
 
     def watch(self, key_expression: str, on_change: Callable[[str, bool], None]) -> None:
         """Call `on_change(key, is_there)` for all that is there already, comes or goes."""
@@ -132,15 +135,18 @@ class ZenohBus:
         )
         self._kept.append(answering)
 
-    def ask(self, key_expression: str, *, timeout_s: float) -> list[tuple[str, bytes]]:
-        """Ask everybody there; (key, payload) of each answer that comes in time."""
-        replies = self._session.get(
-            key_expression,
-            target=zenoh.QueryTarget.ALL,
-            consolidation=zenoh.ConsolidationMode.NONE,
-            timeout=timeout_s,
-        )
-        found = [reply.ok for reply in replies]
+    def ask(self, *key_expressions: str, timeout_s: float) -> list[tuple[str, bytes]]:
+        """Ask everybody there, all at once; (key, payload) of each answer that comes in time."""
+        asked = [
+            self._session.get(
+                key_expression,
+                target=zenoh.QueryTarget.ALL,
+                consolidation=zenoh.ConsolidationMode.NONE,
+                timeout=timeout_s,
+            )
+            for key_expression in key_expressions
+        ]
+        found = [reply.ok for replies in asked for reply in replies]
         return [(str(sample.key_expr), sample.payload.to_bytes()) for sample in found if sample is not None]
 
 

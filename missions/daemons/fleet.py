@@ -1,6 +1,7 @@
 """`swarm status`, `hold`, `resume`, `return`, `land` and `stop`: people speak to vehicles that are under way.
 
-Each vehicle answers for itself. Who does not answer is asked again, and has failed in the end.
+Each vehicle answers for itself. Who does not answer is asked again, and has failed in the end. Where a world is,
+that is everybody of its mission, whether they are there or not; elsewhere those who are.
 """
 
 from __future__ import annotations
@@ -16,13 +17,14 @@ from rich.table import Table
 from rich.text import Text
 
 from comms.credentials import Credentials
-from comms.keys import EVERYBODY_OF_ANY_MISSION, WORLD, Keys, somebody
+from comms.keys import EVERYBODY_OF_ANY_MISSION, WORLD, Keys, crew_size, somebody
 from comms.session import BusError, Network, open_client
 from comms.status import Activity
 from missions.colors import ACTIVITY_INKS, hex_color
 from missions.daemons.options import ENDPOINT
 from missions.daemons.orders import Answer, Report, Verb, decode_answer
 from missions.daemons.security import silence, why
+from missions.mission.agents import MOST_AGENTS
 
 DONE, FAILED = 0, 1
 
@@ -73,17 +75,25 @@ def tell(verb: Verb, options: FleetOptions) -> int:
 
 
 def ask(bus: Network, verb: Verb, options: FleetOptions) -> Answers:
-    """Everybody's answer; None of those who give none."""
+    """Everybody's answer; None of those who give none.
+
+    All are told at the same time, so nobody waits for those who are silent; who has answered is not told again.
+    """
     answers: Answers = dict.fromkeys(_addressed(bus, verb, options))
     for _ in range(ATTEMPTS):
-        for mission, who in [who for who, answer in answers.items() if answer is None]:
-            found = bus.ask(Keys(mission).command(who, verb), timeout_s=ANSWER_S)
-            answers[mission, who] = next((answer for _, wire in found if (answer := decode_answer(wire))), None)
+        asked = {Keys(who[0]).command(who[1], verb): who for who, answer in answers.items() if answer is None}
+        for key, wire in bus.ask(*asked, timeout_s=ANSWER_S):
+            answer = decode_answer(wire)
+            if answer is not None and key in asked:
+                answers[asked[key]] = answer
     return answers
 
 
 def _addressed(bus: Network, verb: Verb, options: FleetOptions) -> list[Who]:
-    """Who is to answer: those who are there, and those who were named. All stop when their world does."""
+    """Who is to answer: those who are there, those who belong to a world that is, and those who were named.
+
+    All stop when their world does.
+    """
     there = [found for key in bus.alive(EVERYBODY_OF_ANY_MISSION) if (found := somebody(key)) is not None]
     named = [(keys.mission, who) for keys, who in there if options.mission in (None, keys.mission)]
     if options.uids is not None:
@@ -92,7 +102,10 @@ def _addressed(bus: Network, verb: Verb, options: FleetOptions) -> list[Who]:
     worlds = [(mission, who) for mission, who in named if who == WORLD]
     if verb is Verb.STOP and worlds:
         return worlds
-    return sorted(((mission, who) for mission, who in named if who.isdigit()), key=lambda who: (who[0], int(who[1])))
+    there_too = {(mission, int(who)) for mission, who in named if who.isdigit() and len(who) <= 9}
+    crews = [(mission, size) for mission, who in named if (size := crew_size(who)) is not None]
+    belong = {(mission, uid) for mission, size in crews for uid in range(min(size, MOST_AGENTS))}
+    return [(mission, str(uid)) for mission, uid in sorted(there_too | belong)]
 
 
 def _watch(bus: Network, options: FleetOptions, console: Console) -> int:

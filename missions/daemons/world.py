@@ -120,6 +120,7 @@ def _run(
         begin=partial(_explain, side),
         tell=lambda event: log.events([event], who="recorder"),
     )
+    disband = bus.declare_alive(keys.crew(mission.agents.count))
     bus.declare_alive(keys.alive(WORLD))
     known = "" if daemon.credentials is None else f" whose certificates lie in {daemon.credentials.folder}"
     log.info(f"listens on {daemon.endpoint}, and waits for {mission.agents.count} agents{known}")
@@ -133,6 +134,7 @@ def _run(
             observers.append(progress)
             fly(side, crew, pace=pace_of(mission, daemon.speed), observers=observers, stop=desk.is_closing)
     finally:
+        disband()
         crew.dismiss()
         feed.close()
     for failure in feed.failures:

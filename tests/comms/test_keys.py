@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from comms.keys import RECORDER, WORLD, Keys, sender
+from comms.keys import RECORDER, WORLD, Keys, crew_size, sender, somebody
 
 
 def test_a_key_of_somebody_is_read_back() -> None:
@@ -13,6 +13,15 @@ def test_a_key_of_somebody_is_read_back() -> None:
         for key in (keys.tx(uid), keys.rx(uid), keys.alive(uid), keys.cue(uid), keys.done(uid)):
             assert sender(key) == uid
     assert sender(keys.alive(WORLD)) is sender(keys.truth) is None
+
+
+def test_a_crew_is_counted_and_is_nobody() -> None:
+    keys = Keys("tour")
+    found = somebody(keys.crew(250))
+    assert found is not None
+    assert crew_size(found[1]) == 250
+    assert sender(keys.crew(250)) is None
+    assert [crew_size(who) for who in (WORLD, "7", "crew", "crewx", "crew999999")] == [None] * 5
 
 
 def test_no_two_keys_are_the_same() -> None:

@@ -4,15 +4,21 @@ from __future__ import annotations
 
 import json
 import subprocess
+from contextlib import ExitStack
 from io import StringIO
 from pathlib import Path
+from queue import SimpleQueue
+from threading import Thread
+from time import monotonic
 
 import pytest
 from rich.console import Console
 
+from comms.keys import WORLD, Keys
+from comms.session import Question, open_client, open_router
 from comms.status import Activity
 from missions.colors import ACTIVITY_INKS, hex_color
-from missions.daemons.fleet import status_table
+from missions.daemons.fleet import ANSWER_S, ATTEMPTS, FleetOptions, ask, status_table
 from missions.daemons.orders import Answer, Orders, Report, Verb, decode_answer, encode_answer
 from missions.sides.exchange import Cue
 from tests.missions.daemons.swarm import COMMAND, PATIENCE_S, ROOT, SMALL, free_endpoint, swarm
@@ -112,6 +118,55 @@ def test_the_status_of_a_vehicle_is_a_line_of_eighty_letters_in_the_color_of_wha
     assert one.rstrip().endswith("0.1 s 4 ms 12 ms")
     assert "does not answer" in other
     assert hex_color(ACTIVITY_INKS[Activity.CALLING]).lower() in page.lower()
+
+
+def test_everybody_of_a_world_is_told_at_once_and_who_is_silent_or_gone_has_failed() -> None:
+    # Agents 0 to 2 stand still, 3 answers, 4 is not there: nobody who answers waits for those who do not.
+    keys, endpoint = Keys("quickstart"), free_endpoint()
+    asked: SimpleQueue[tuple[float, Question] | None] = SimpleQueue()
+    frozen: list[str] = []
+    kept: list[Question] = []  # a question that nobody holds is over
+    obeyed_at_s: list[float] = []
+
+    def obey() -> None:
+        while (found := asked.get()) is not None:
+            at_s, question = found
+            obeyed_at_s.append(at_s)
+            question.answer(encode_answer(Answer(obeyed=True, text="lands")))
+
+    def stand_still(question: Question) -> None:
+        frozen.append(question.key)
+        kept.append(question)
+
+    with ExitStack() as stack:
+        world = stack.enter_context(open_router(endpoint, lossless=True))
+        agents = stack.enter_context(open_client(endpoint, lossless=True, patience_s=PATIENCE_S))
+        for uid in range(3):
+            agents.answer(keys.every_command(uid), stand_still)
+        agents.answer(keys.every_command(3), lambda question: asked.put((monotonic(), question)))
+        for uid in range(4):
+            agents.declare_alive(keys.alive(uid))
+        disband = world.declare_alive(keys.crew(5))
+        world.declare_alive(keys.alive(WORLD))
+        person = stack.enter_context(open_client(endpoint, lossless=True, patience_s=PATIENCE_S))
+        deadline_s = monotonic() + PATIENCE_S
+        while len(person.alive(keys.every_alive)) < 6:
+            assert monotonic() < deadline_s
+        thread = Thread(target=obey, daemon=True)
+        thread.start()
+        began_s = monotonic()
+        answers = ask(person, Verb.LAND, FleetOptions(mission="quickstart"))
+        took_s = monotonic() - began_s
+        disband()
+        while keys.crew(5) in person.alive(keys.every_alive):
+            assert monotonic() < deadline_s
+        asked.put(None)
+        thread.join(PATIENCE_S)
+    assert [uid for _, uid in answers] == ["0", "1", "2", "3", "4"]
+    assert [answer and answer.text for answer in answers.values()] == [None, None, None, "lands", None]
+    assert len(obeyed_at_s) == 1  # who has answered is not told again
+    assert len(frozen) == 3 * ATTEMPTS
+    assert obeyed_at_s[0] - began_s < took_s - ANSWER_S  # in the first attempt, while the others are still silent
 
 
 def test_where_nobody_is_nobody_is_told() -> None:
