@@ -89,7 +89,7 @@ CASES: dict[str, tuple[str, list[str]]] = {
         [
             ":3: agents.sensing.rang_m: got an unknown key; allowed: range_m, field_of_view, opening_deg, "
             "half_angle_deg, identity_error; did you mean range_m?",
-            ":5: agents.count: got 0; allowed: a whole number from 1 to 250",
+            ":5: agents.count: got 0; allowed: a whole number from 1 to 1000",
             ':7: policy.commitment: got "maybe"; allowed: true or false',
         ],
     ),
