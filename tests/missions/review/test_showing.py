@@ -182,15 +182,18 @@ def test_without_a_screen_there_is_no_window(
 def test_a_recording_is_served_to_browsers_until_ctrl_c(flown: Flown) -> None:
     command = [sys.executable, "-u", "-m", "missions.cli", "review", str(flown.recording), "--web"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
-        assert process.stdout is not None
-        url = next(line.split()[-1] for line in process.stdout if line.startswith("Look at it in a browser: "))
-        assert url.startswith("http://127.0.0.1:")
-        until = time.monotonic() + 20.0
-        while not (answers := _answers(url)) and time.monotonic() < until:
-            time.sleep(0.05)
-        assert answers
-        process.send_signal(signal.SIGINT)
-        assert process.wait(timeout=20.0) == 0
+        try:
+            assert process.stdout is not None
+            url = next(line.split()[-1] for line in process.stdout if line.startswith("Look at it in a browser: "))
+            assert url.startswith("http://127.0.0.1:")
+            until = time.monotonic() + 20.0
+            while not (answers := _answers(url)) and time.monotonic() < until:
+                time.sleep(0.05)
+            assert answers
+            process.send_signal(signal.SIGINT)
+            assert process.wait(timeout=20.0) == 0
+        finally:
+            process.kill()
     assert not _answers(url)
 
 
