@@ -13,10 +13,9 @@ import sys
 from collections.abc import Sequence
 
 from missions.commands import COMMANDS
-from missions.commands.command import BAD_INPUT, DONE, FAILED, STOPPED, UNREAD, Command
+from missions.commands.command import Command
+from missions.exit_codes import BAD_INPUT, STOPPED, UNREAD
 from missions.problems import InputError
-
-__all__ = ["BAD_INPUT", "DONE", "FAILED", "STOPPED", "main"]
 
 _TOP = """examples:
   swarm launch quickstart              fly ten agents over ten targets

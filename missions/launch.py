@@ -16,6 +16,7 @@ from comms.session import open_local_bus
 from missions.checkout import commit
 from missions.compose import cos_half_opening
 from missions.ending import Ending
+from missions.exit_codes import DONE, FAILED, STOPPED
 from missions.faults.costs import Costs
 from missions.faults.schedule import spells_of
 from missions.flight import Flight
@@ -38,7 +39,6 @@ from vehicle_sim.autopilot import SimulatedVehicle
 if TYPE_CHECKING:
     from missions.recording import Recorder
 
-DONE, FAILED, STOPPED = 0, 1, 130
 # How often an agent tells a recorder what it knows; in a large swarm it takes longer until all have told.
 EXPLAIN_EVERY_S, EXPLAINED_A_S = 1.0, 25
 

@@ -9,8 +9,6 @@ from importlib.util import find_spec
 
 from missions.problems import InputError
 
-DONE, FAILED, BAD_INPUT, STOPPED, UNREAD = 0, 1, 2, 130, 141
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Command:

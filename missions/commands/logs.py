@@ -6,7 +6,8 @@ import argparse
 from pathlib import Path
 
 from missions.arguments import new_file
-from missions.commands.command import DONE, Command, need_extra
+from missions.commands.command import Command, need_extra
+from missions.exit_codes import DONE
 from missions.review.options import EXAMPLES, add_options, review_options
 
 _PACKAGES = ("numpy", "rerun", "matplotlib")

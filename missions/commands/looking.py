@@ -6,9 +6,10 @@ import argparse
 import json
 import sys
 
-from missions.commands.command import BAD_INPUT, DONE, Command
+from missions.commands.command import Command
 from missions.commands.which import add_mission, add_set, changes, mission_help, mission_of
 from missions.daemons.arguments import add_processes
+from missions.exit_codes import BAD_INPUT, DONE
 from missions.load import load_mission
 from missions.problems import InputError
 

@@ -7,8 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from missions.arguments import count, new_file, whole
-from missions.commands.command import DONE, Command, need_extra
+from missions.commands.command import Command, need_extra
 from missions.commands.which import add_set, changes, mission_help
+from missions.exit_codes import DONE
 from missions.load import LIBRARY
 from missions.problems import InputError
 

@@ -32,6 +32,7 @@ from missions.daemons.seat import Seat
 from missions.daemons.security import silence, why
 from missions.daemons.wire import OVER, decode_cue
 from missions.ending import Ending
+from missions.exit_codes import DONE, FAILED, STOPPED
 from missions.links import open_transports
 from missions.mission import Mission
 from missions.sides.agent import agent_sides
@@ -39,8 +40,6 @@ from missions.sides.computer import Computer
 from missions.sides.exchange import Cue
 from missions.sides.phases import RETURN_LIMIT_S
 from missions.targets import n_targets
-
-DONE, FAILED, STOPPED = 0, 1, 130
 
 HELLO_EVERY_S = 0.1
 MOST_AT_ONCE = 20  # ticks that are made up for before it listens again

@@ -29,6 +29,7 @@ from missions.daemons.log import Log
 from missions.daemons.options import DaemonOptions
 from missions.daemons.orders import Answer, Orders, Verb, Watch, encode_answer
 from missions.ending import Ending
+from missions.exit_codes import DONE, FAILED, STOPPED
 from missions.links import open_transports
 from missions.mission import Mission
 from missions.observation import Phase
@@ -37,8 +38,6 @@ from missions.sides.agent import AgentSide, agent_sides
 from missions.sides.exchange import Cue, Done
 from missions.sides.phases import Phases
 from missions.targets import n_targets
-
-DONE, FAILED, STOPPED = 0, 1, 130
 
 LOOK_S = 0.05
 MAX_QUESTIONS = 100

@@ -24,9 +24,8 @@ from missions.colors import ACTIVITY_INKS, hex_color
 from missions.daemons.options import ENDPOINT
 from missions.daemons.orders import Answer, Report, Verb, decode_answer
 from missions.daemons.security import silence, why
+from missions.exit_codes import DONE, FAILED
 from missions.mission.agents import MOST_AGENTS
-
-DONE, FAILED = 0, 1
 
 CONNECT_S = 3.0
 ANSWER_S = 2.0

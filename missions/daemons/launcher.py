@@ -18,11 +18,10 @@ from rich.console import Console
 from comms.keys import RECORDER
 from missions.daemons.processes import ProcessPlan
 from missions.ending import Ending
-from missions.launch import FAILED, STOPPED
+from missions.exit_codes import BAD_INPUT, FAILED, STOPPED
 from missions.problems import InputError
 from missions.sides.phases import RETURN_LIMIT_S
 
-BAD_INPUT = 2
 LOOK_EVERY_S = 0.1
 # From the end of the world until its agents have landed by themselves: they notice, wait for it a while, and fly home.
 LANDING_S = RETURN_LIMIT_S + 60.0

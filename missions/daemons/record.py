@@ -18,7 +18,8 @@ from missions.daemons.options import DaemonOptions, await_world_s, fingerprint
 from missions.daemons.security import silence, why
 from missions.daemons.wire import OVER, decode_observation
 from missions.ending import Ending
-from missions.launch import DONE, FAILED, STOPPED, recorder_of
+from missions.exit_codes import DONE, FAILED, STOPPED
+from missions.launch import recorder_of
 from missions.mission import Mission
 from missions.options import LaunchOptions
 from missions.problems import InputError, OutputError

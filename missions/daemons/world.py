@@ -19,8 +19,9 @@ from missions.daemons.log import Log
 from missions.daemons.options import DaemonOptions, await_back_s, fingerprint
 from missions.daemons.orders import Answer, Verb, encode_answer
 from missions.ending import Ending
+from missions.exit_codes import DONE, FAILED, STOPPED
 from missions.faults.costs import Costs
-from missions.launch import DONE, FAILED, STOPPED, explain_every_s, pace_of
+from missions.launch import explain_every_s, pace_of
 from missions.metrics import Metrics
 from missions.mission import Mission
 from missions.observation import Observation, Observer

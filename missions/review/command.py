@@ -7,6 +7,7 @@ from pathlib import Path
 
 from rich.console import Console
 
+from missions.exit_codes import DONE, FAILED
 from missions.problems import InputError
 from missions.report import as_json
 from missions.review.checks import countable, judge
@@ -22,7 +23,6 @@ from missions.review.reading import Review, read
 from missions.review.showing import show
 from missions.review.summary import print_summary
 
-DONE, FAILED = 0, 1
 _WIDE = 160
 _PAGES = (".html", ".htm")
 

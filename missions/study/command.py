@@ -10,6 +10,7 @@ from pathlib import Path
 
 from rich.console import Console
 
+from missions.exit_codes import DONE, FAILED
 from missions.overrides import Override
 from missions.problems import InputError
 from missions.study.bar import StudyBar, work_of
@@ -22,7 +23,6 @@ from missions.study.shards import WHOLE, Shard, blocks
 from missions.study.store import STUDY, Store
 from missions.training import figure7
 
-DONE, FAILED = 0, 1
 OUT = Path("out") / "study"
 OURS = {"faults"}  # no experiment of the paper
 

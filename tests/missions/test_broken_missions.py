@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from missions.cli import BAD_INPUT, main
+from missions.cli import main
+from missions.exit_codes import BAD_INPUT
 from missions.mission import faults
 
 BUNDLED = "baboons, crowded, faults, narrow, quickstart, reference, tracks, wildlife"

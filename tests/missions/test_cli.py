@@ -11,7 +11,8 @@ from types import ModuleType
 
 import pytest
 
-from missions.cli import BAD_INPUT, DONE, FAILED, STOPPED, main
+from missions.cli import main
+from missions.exit_codes import BAD_INPUT, DONE, FAILED, STOPPED
 from missions.load import load_mission
 from missions.mission import Mission
 from missions.options import LaunchOptions

@@ -17,7 +17,8 @@ from comms.mavlink import Endpoint
 from comms.session import open_local_bus
 from comms.signing import Signing
 from comms.transport import Transport, TransportError, transport_of
-from missions.cli import BAD_INPUT, main
+from missions.cli import main
+from missions.exit_codes import BAD_INPUT
 from missions.flight import Flight
 from missions.ground_link import GroundLink, open_ground_link
 from missions.load import load_mission

@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from comms.frames import enu_from_geo
-from missions.cli import DONE, main
+from missions.cli import main
+from missions.exit_codes import DONE
 from missions.load import load_mission
 from missions.mission import AgentDeployment, Agents, Altitude, Disc, Mission, Sensing
 from missions.observation import Phase

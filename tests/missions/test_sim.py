@@ -18,7 +18,8 @@ from pymavlink.dialects.v20 import ardupilotmega as dialect
 from comms.frames import GeoPoint
 from comms.mavlink import Endpoint
 from comms.transport import Transport, transport_of
-from missions.cli import BAD_INPUT, STOPPED, main
+from missions.cli import main
+from missions.exit_codes import BAD_INPUT, STOPPED
 from missions.sim.options import add_options, sim_options
 from missions.sim.session import TOO_LATE_S, SlippingPace, power_on
 from tests.comms.test_transport import until

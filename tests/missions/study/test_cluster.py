@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from missions.exit_codes import DONE
 from missions.problems import InputError
-from missions.study.command import DONE, StudyOptions, fly_study
+from missions.study.command import StudyOptions, fly_study
 from missions.study.fly import here, on_cluster
 from missions.study.shards import blocks
 from tests.missions.study.toy_runs import WITHOUT_FIGURES, fly

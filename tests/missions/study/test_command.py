@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from missions.cli import BAD_INPUT, DONE, STOPPED, main
+from missions.cli import main
 from missions.commands import command as verb
+from missions.exit_codes import BAD_INPUT, DONE, STOPPED
 from missions.overrides import Override
 from missions.study import command
 from missions.study.command import StudyOptions

@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from missions.cli import BAD_INPUT, DONE, main
+from missions.cli import main
+from missions.exit_codes import BAD_INPUT, DONE
 from missions.load import load_mission
 from missions.mission import Mission
 from missions.overrides import Override

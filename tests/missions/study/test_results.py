@@ -12,9 +12,10 @@ import numpy as np
 import pyarrow.parquet
 import pytest
 
+from missions.exit_codes import DONE
 from missions.plan import coverage_floor
 from missions.study.claims import judged
-from missions.study.command import DONE, StudyOptions, fly_paper, fly_study
+from missions.study.command import StudyOptions, fly_paper, fly_study
 from missions.study.figures import draw, panels_of, write_figure
 from missions.study.fly import here
 from missions.study.load import bundled_studies, load_study

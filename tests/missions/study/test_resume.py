@@ -7,9 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from missions.exit_codes import DONE, FAILED
 from missions.overrides import Override
 from missions.problems import InputError
-from missions.study.command import DONE, FAILED, StudyOptions, fly_study, merge
+from missions.study.command import StudyOptions, fly_study, merge
 from missions.study.fly import Landed, here
 from missions.study.shards import Block, Shard
 from missions.study.store import Store
