@@ -7,10 +7,7 @@ While the world is silent it holds still on its own clock (`seat`, `contact`) an
 
 from __future__ import annotations
 
-import queue
 from collections.abc import Iterable, Sequence
-from contextlib import suppress
-from functools import partial
 from math import inf
 from time import monotonic, sleep
 
@@ -20,16 +17,18 @@ from comms.endpoint import is_local
 from comms.keys import WORLD, Keys, sender, verb_of
 from comms.mailbox import Mailbox
 from comms.radio import Radio
-from comms.session import BusError, Network, Question, open_client
+from comms.session import BusError, Network
 from comms.status import Activity, Event
 from comms.transport import Transport
 from missions import compose
 from missions.daemons.airwaves import open_airwaves
+from missions.daemons.joining import open_world, unmet
 from missions.daemons.log import Log
 from missions.daemons.options import DaemonOptions, await_world_s, fingerprint
 from missions.daemons.orders import Answer, Verb, encode_answer
+from missions.daemons.questions import Questions
 from missions.daemons.seat import Seat
-from missions.daemons.security import silence, why
+from missions.daemons.security import silence
 from missions.daemons.wire import OVER, decode_cue
 from missions.ending import Ending
 from missions.exit_codes import DONE, FAILED, STOPPED
@@ -45,7 +44,6 @@ HELLO_EVERY_S = 0.1
 MOST_AT_ONCE = 20  # ticks that are made up for before it listens again
 FRAMES_LATE_S = 10.0  # frames that are under way and do not come for so long are lost
 FRAME_LOOK_S = 1e-4
-MAX_QUESTIONS = 100
 
 
 def agent(mission: Mission, uids: Sequence[int], options: DaemonOptions) -> int:
@@ -59,25 +57,14 @@ def agent(mission: Mission, uids: Sequence[int], options: DaemonOptions) -> int:
     with ending.listening(leash=options.leash), open_transports(mission, uids) as transports:
         try:
             with (
-                open_client(
-                    options.endpoint,
-                    lossless=options.lockstep,
-                    patience_s=options.join_s,
-                    credentials=options.credentials,
-                    tell=lambda error: log.error(f"{why(error, options.credentials, otherwise='')}; still trying"),
-                    stop=lambda: ending.asked,
-                    n_peers=len(mission.radio.endpoints),
-                ) as bus,
+                open_world(options, ending=ending, log=log, n_peers=len(mission.radio.endpoints)) as bus,
                 open_airwaves(mission, uids, options, bus) as airwaves,
             ):
                 radios = compose.radios(mission, airwaves, uids, n_targets(mission))
                 daemon = _Daemon(mission, radios, bus, transports, options, ending=ending, log=log)
                 return daemon.run()
         except BusError as error:
-            if ending.asked:
-                return STOPPED if ending.interrupted else DONE
-            hint = f"does `swarm world {mission.name}` run there?"
-            log.error(why(error, options.credentials, otherwise=hint))
+            return unmet(error, mission, options, ending=ending, log=log)
         except KeyboardInterrupt:
             log.error("ended at once, in the air or not")
     return STOPPED if ending.interrupted else FAILED
@@ -104,7 +91,7 @@ class _Daemon:
         self._keys = Keys(mission.name)
         self._radios = {radio.uid: radio for radio in radios}
         self._mail = Mailbox(self._radios)
-        self._questions: queue.Queue[tuple[int, Question]] = queue.Queue(MAX_QUESTIONS)
+        self._questions: Questions[int] = Questions()
         self._fingerprint = fingerprint(mission, options.speed)
         self._greeted_at_s = -inf
         self._gone_at_s: float | None = None
@@ -118,7 +105,7 @@ class _Daemon:
         for uid in self._seats:
             bus.subscribe(keys.cue(uid), lambda key, payload: self._mail.put(sender(key), payload))
             bus.declare_alive(keys.alive(uid))
-            bus.answer(keys.every_command(uid), partial(self._ask, uid))
+            self._questions.take_at(bus, keys.every_command(uid), uid)
         bus.watch(keys.alive(WORLD), self._on_world)
         self._log.info("ready")
         deadline_s = monotonic() + self._options.join_s
@@ -186,9 +173,8 @@ class _Daemon:
         cue = decode_cue(wire)
         if cue is None:
             return
-        if (
-            not seat.met and cue.tick > 0
-        ):  # it comes back to a mission that is under way: its vehicle is switched on now
+        if not seat.met and cue.tick > 0:
+            # It comes back to a mission that is under way: its vehicle is switched on now.
             seat = self._seats[seat.uid] = self._seat(seat.uid, started_tick=cue.tick)
         self._await_frames(seat.side.computer, cue)
         self._obey(seat)
@@ -218,14 +204,9 @@ class _Daemon:
         self._log.time_s = seat.last.tick * self._mission.tick_s
         self._log.events(events, who=agents_name([seat.uid]))
 
-    def _ask(self, uid: int, question: Question) -> None:
-        with suppress(queue.Full):  # whoever asks so often gets no answer, and asks again
-            self._questions.put_nowait((uid, question))
-
     def _answer(self) -> None:
         """What people have told us since the last tick."""
-        while not self._questions.empty():
-            uid, question = self._questions.get_nowait()
+        for uid, question in self._questions.waiting():
             seat = self._seats[uid]
             obeyed, text = seat.orders.take(verb_of(question.key), seat.activity)
             report = seat.watch.report(seat.last, time_s=self._log.time_s)

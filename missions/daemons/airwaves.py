@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
-from itertools import groupby
 
 from comms.access import Gate, Place
 from comms.credentials import agents_name
 from comms.keys import Keys
 from comms.session import Bus, BusError, open_peer
 from missions.daemons.options import DaemonOptions
+from missions.daemons.radios import own_endpoint, radios_of
 from missions.daemons.security import endpoint_of
 from missions.mission import Mission
 from missions.problems import InputError
@@ -41,27 +41,6 @@ def open_airwaves(mission: Mission, uids: Sequence[int], options: DaemonOptions,
         except BusError as error:
             raise InputError(f"radio.endpoints: {error}") from error
         yield bus
-
-
-def radios_of(mission: Mission) -> dict[str, list[int]]:
-    """Which agents share each of the radios that a mission names, in its order."""
-    by_endpoint = groupby(range(len(mission.radio.endpoints)), key=mission.radio.endpoints.__getitem__)
-    return {endpoint: list(group) for endpoint, group in by_endpoint}
-
-
-def own_endpoint(mission: Mission, uids: Sequence[int]) -> str:
-    """Where the radio of the process that runs these agents listens.
-
-    Raises:
-        InputError: other agents than these share it.
-    """
-    endpoint = mission.radio.endpoints[uids[0]]
-    group = radios_of(mission)[endpoint]
-    if list(uids) != group:
-        words = f"{group[0]}-{group[-1]}" if len(group) > 1 else f"{group[0]}"
-        got = f"{uids[0]}-{uids[-1]}" if len(uids) > 1 else f"{uids[0]}"
-        raise InputError(f"--id: got {got}; allowed: {words}, which shares {endpoint} of radio.endpoints")
-    return endpoint
 
 
 def _before(endpoints: Iterable[str], own: str) -> Iterator[str]:

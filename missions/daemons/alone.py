@@ -7,10 +7,7 @@ come in at a place of the agent's own, and nothing flies before `swarm resume`.
 
 from __future__ import annotations
 
-import queue
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
-from functools import partial
 from math import ceil
 from time import monotonic, sleep, time
 
@@ -20,7 +17,7 @@ from comms.access import Gate, Place
 from comms.clock import RealTime
 from comms.credentials import agents_name
 from comms.keys import Keys, verb_of
-from comms.session import BusError, Network, Question, open_router
+from comms.session import BusError, Network, open_router
 from comms.sight import Eyes
 from comms.status import Activity
 from missions import compose
@@ -28,6 +25,7 @@ from missions.daemons.airwaves import open_airwaves
 from missions.daemons.log import Log
 from missions.daemons.options import DaemonOptions
 from missions.daemons.orders import Answer, Orders, Verb, Watch, encode_answer
+from missions.daemons.questions import Questions
 from missions.ending import Ending
 from missions.exit_codes import DONE, FAILED, STOPPED
 from missions.links import open_transports
@@ -40,7 +38,6 @@ from missions.sides.phases import Phases
 from missions.targets import n_targets
 
 LOOK_S = 0.05
-MAX_QUESTIONS = 100
 WAITING = "waits on the ground for resume"
 
 
@@ -123,10 +120,10 @@ class _Desk:
         self._watches = {uid: Watch() for uid in uids}
         self._last: dict[int, Done] = {}
         self._time_s = 0.0
-        self._questions: queue.Queue[tuple[int, Question]] = queue.Queue(MAX_QUESTIONS)
+        self._questions: Questions[int] = Questions()
         for uid in uids:
             bus.declare_alive(keys.alive(uid))
-            bus.answer(keys.every_command(uid), partial(self._ask, uid))
+            self._questions.take_at(bus, keys.every_command(uid), uid)
 
     @property
     def is_closing(self) -> bool:
@@ -156,8 +153,7 @@ class _Desk:
 
     def answer(self) -> None:
         """What people have asked and told since the last time."""
-        while not self._questions.empty():
-            uid, question = self._questions.get_nowait()
+        for uid, question in self._questions.waiting():
             obeyed, text = self._obey(uid, verb_of(question.key))
             last = self._last.get(uid)
             report = None if last is None else self._watches[uid].report(last, time_s=self._time_s)
@@ -171,7 +167,3 @@ class _Desk:
             self.begun = True
             return True, "begins"
         return word == Verb.STATUS, WAITING
-
-    def _ask(self, uid: int, question: Question) -> None:
-        with suppress(queue.Full):  # whoever asks so often gets no answer, and asks again
-            self._questions.put_nowait((uid, question))

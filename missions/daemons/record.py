@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from comms.keys import RECORDER, WORLD, Keys
-from comms.session import BusError, Network, open_client
+from comms.session import BusError, Network
 from missions.daemons.feed import KEPT_EVERY_TICKS, WINDOW_TICKS, Kept
+from missions.daemons.joining import open_world, unmet
 from missions.daemons.log import Log
 from missions.daemons.options import DaemonOptions, await_world_s, fingerprint
-from missions.daemons.security import silence, why
+from missions.daemons.security import silence
 from missions.daemons.wire import OVER, decode_observation
 from missions.ending import Ending
 from missions.exit_codes import DONE, FAILED, STOPPED
@@ -49,21 +50,11 @@ def record(mission: Mission, daemon: DaemonOptions, options: LaunchOptions) -> i
         if recorder.page_url is not None:
             sys.stderr.write(f"Watch it in a browser: {recorder.page_url}\n")
         try:
-            with open_client(
-                daemon.endpoint,
-                lossless=daemon.lockstep,
-                patience_s=daemon.join_s,
-                credentials=daemon.credentials,
-                tell=lambda error: log.error(f"{why(error, daemon.credentials, otherwise='')}; still trying"),
-                stop=lambda: ending.asked,
-            ) as bus:
+            with open_world(daemon, ending=ending, log=log) as bus:
                 return _Reel(mission, bus, recorder, daemon, ending=ending, log=log).run()
         except BusError as error:
-            if ending.asked:
-                return STOPPED if ending.interrupted else DONE
-            hint = f"does `swarm world {mission.name}` run there?"
-            log.error(why(error, daemon.credentials, otherwise=hint))
             recorder.__exit__(type(error), error, None)
+            return unmet(error, mission, daemon, ending=ending, log=log)
         except KeyboardInterrupt:
             log.error("ended at once")
     return STOPPED if ending.interrupted else FAILED

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from comms.credentials import Credentials, agents_named
 from comms.endpoint import is_local
-from comms.session import BusError
 from missions.mission import Mission
 from missions.problems import InputError
+
+if TYPE_CHECKING:
+    from comms.session import BusError
 
 _PLAIN, _SECURED = "tcp/", "tls/"
 

@@ -10,9 +10,9 @@ from math import isinf
 from comms.credentials import OPERATOR, Credentials, agents_name, agents_named
 from comms.keys import RECORDER, WORLD
 from comms.status import Level
-from missions.daemons.airwaves import own_endpoint
 from missions.daemons.options import DaemonOptions
 from missions.daemons.processes import ProcessOptions, ProcessPlan, plan_processes
+from missions.daemons.radios import own_endpoint
 from missions.daemons.security import check_all_known, check_complete, check_listening, credentials_of, endpoint_of
 from missions.load import load_mission
 from missions.mission import Mission

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import queue
 import time
-from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 
@@ -12,12 +10,13 @@ from rich.console import Console
 
 from comms.access import Gate, Place
 from comms.keys import WORLD, Keys
-from comms.session import BusError, Network, Question, open_router
+from comms.session import BusError, Network, open_router
 from missions.daemons.crew import CrewError, Patience, RemoteCrew
 from missions.daemons.feed import Feed
 from missions.daemons.log import Log
 from missions.daemons.options import DaemonOptions, await_back_s, fingerprint
 from missions.daemons.orders import Answer, Verb, encode_answer
+from missions.daemons.questions import Questions
 from missions.ending import Ending
 from missions.exit_codes import DONE, FAILED, STOPPED
 from missions.faults.costs import Costs
@@ -36,7 +35,6 @@ LOST_S = 10.0
 LOST_IN_REAL_TIME_S = 3.0
 # Of a tick, in real time: what is left is for the world itself.
 TICK_SHARE = 0.8
-MAX_QUESTIONS = 100
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -173,19 +171,15 @@ class _Desk:
 
     def __init__(self, bus: Network, keys: Keys, ending: Ending) -> None:
         self._ending = ending
-        self._questions: queue.Queue[Question] = queue.Queue(MAX_QUESTIONS)
-        bus.answer(keys.command(WORLD, Verb.STOP), self._ask)
+        self._questions: Questions[str] = Questions()
+        self._questions.take_at(bus, keys.command(WORLD, Verb.STOP), WORLD)
 
     def is_closing(self) -> bool:
         """Whether anybody has asked for the end, in whatever way."""
-        while not self._questions.empty():
+        for _, question in self._questions.waiting():
             self._ending.ask()
-            self._questions.get_nowait().answer(encode_answer(Answer(obeyed=True, text="everybody comes home")))
+            question.answer(encode_answer(Answer(obeyed=True, text="everybody comes home")))
         return self._ending.asked
-
-    def _ask(self, question: Question) -> None:
-        with suppress(queue.Full):
-            self._questions.put_nowait(question)
 
 
 class _Teller:

@@ -146,7 +146,16 @@ def test_the_exit_code_is_the_missions(
 HEAVY = ("zenoh", "pymavlink", "rerun", "numpy", "torch", "numba")
 
 
-@pytest.mark.parametrize("arguments", [["check", "quickstart"], ["plan", "quickstart"], ["schema"], ["launch", "nil"]])
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["check", "quickstart"],
+        ["plan", "quickstart"],
+        ["plan", "quickstart", "--processes"],
+        ["schema"],
+        ["launch", "nil"],
+    ],
+)
 def test_looking_at_a_mission_imports_nothing_heavy(arguments: list[str]) -> None:
     program = (
         "import sys\nfrom missions.cli import main\n"
