@@ -9,15 +9,27 @@ from typing import Annotated
 
 import msgspec
 
-from comms.messages import MAX_ANSWERS, MAX_CALLS, MAX_TAGS, VERSION, Answer, Frame, HelpCall, Tag, thousandths
+from comms.messages import (
+    FARTHEST_M,
+    FASTEST_M_S,
+    MAX_ANSWERS,
+    MAX_CALLS,
+    MAX_TAGS,
+    VERSION,
+    Answer,
+    Frame,
+    HelpCall,
+    Tag,
+    thousandths,
+)
 
 MAX_FRAME_BYTES = 4096  # nobody needs more; longer input is not looked at
 MAX_TARGETS = 65_536
 
 _Id = Annotated[int, msgspec.Meta(ge=0, lt=MAX_TARGETS)]
-_Millimeters = Annotated[int, msgspec.Meta(ge=-100_000_000, le=100_000_000)]  # within 100 km of home
-_MillimetersPerSecond = Annotated[int, msgspec.Meta(ge=-500_000, le=500_000)]  # up to 500 m/s
-_Distance = Annotated[int, msgspec.Meta(ge=0, le=200_000_000)]
+_Millimeters = Annotated[int, msgspec.Meta(ge=-1000 * FARTHEST_M, le=1000 * FARTHEST_M)]
+_MillimetersPerSecond = Annotated[int, msgspec.Meta(ge=-1000 * FASTEST_M_S, le=1000 * FASTEST_M_S)]
+_Distance = Annotated[int, msgspec.Meta(ge=0, le=2000 * FARTHEST_M)]
 _Span = Annotated[int, msgspec.Meta(ge=0, le=86_400_000)]  # up to a day
 _Instant = Annotated[int, msgspec.Meta(ge=0, le=2**53)]
 

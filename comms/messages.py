@@ -12,6 +12,8 @@ from typing import NamedTuple
 from comms.frames import Vec3
 
 VERSION = 1
+# Nothing in a mission is farther from home, or faster; whatever says so on any wire is not believed.
+FARTHEST_M, FASTEST_M_S = 100_000, 500
 # What one frame holds at most; 4096 bytes have room for it.
 MAX_TAGS = 64
 MAX_CALLS = 48

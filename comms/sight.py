@@ -20,7 +20,7 @@ from typing import Annotated
 import msgspec
 
 from comms.keys import Keys
-from comms.messages import Sighting
+from comms.messages import FARTHEST_M, FASTEST_M_S, Sighting
 from comms.session import Bus
 
 SIGHT_LIVES_S = 0.5
@@ -29,8 +29,8 @@ MAX_BYTES = 65_536
 MAX_TARGETS_SEEN = 256
 MAX_WAITING = 16
 
-_Place = Annotated[float, msgspec.Meta(ge=-100_000.0, le=100_000.0)]
-_Speed = Annotated[float, msgspec.Meta(ge=-500.0, le=500.0)]
+_Place = Annotated[float, msgspec.Meta(ge=-FARTHEST_M, le=FARTHEST_M)]
+_Speed = Annotated[float, msgspec.Meta(ge=-FASTEST_M_S, le=FASTEST_M_S)]
 
 
 class SeenTarget(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

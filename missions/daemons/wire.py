@@ -7,12 +7,11 @@ from typing import TypeVar
 
 import msgspec
 
+from comms.messages import FARTHEST_M, FASTEST_M_S
 from missions.observation import Observation
 from missions.sides.exchange import Cue, Done
 
 MAX_BYTES = 1_000_000
-# No vehicle of a mission is farther from home, nor faster: as in the frames of agents.
-FARTHEST_M, FASTEST_M_S = 100_000.0, 500.0
 OVER = b""  # in place of a cue or an observation: the mission is over
 
 T = TypeVar("T")

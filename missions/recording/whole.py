@@ -12,7 +12,7 @@ from rerun.chunk import RrdReader
 
 from missions.problems import InputError
 from missions.recording.optimize import repair
-from missions.recording.parts import parts_of
+from missions.recording.parts import parts_of, unfinished
 
 
 @contextmanager
@@ -23,7 +23,7 @@ def whole(path: Path) -> Iterator[tuple[Sequence[Path], bool]]:
         InputError: there is no such file, or nothing of it can be read.
     """
     if not path.is_file():
-        part = path.with_name(path.name + ".part")
+        part = unfinished(path)
         hint = f"; did you mean {part}?" if part.is_file() else ""
         raise InputError(f"{path}: got no file; allowed: a recording, F.rrd or F.rrd.part{hint}")
     if path.suffix == ".tlog":
