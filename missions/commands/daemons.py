@@ -3,72 +3,58 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
 
 from missions.commands.command import Command, need_extra
 from missions.commands.which import add_mission, mission_of
-from missions.daemons import arguments
+from missions.daemons import arguments, verbs
+from missions.mission import Mission
+
+Parser = argparse.ArgumentParser
 
 
-def _add_world(parser: argparse.ArgumentParser) -> None:
-    arguments.world_options(parser)
-    add_mission(parser)
-
-
-def _world(options: argparse.Namespace) -> int:
-    from missions.daemons import verbs
-
-    return verbs.world(mission_of(options), options)
-
-
-def _add_agent(parser: argparse.ArgumentParser) -> None:
-    arguments.agent_options(parser)
-    add_mission(parser)
-
-
-def _agent(options: argparse.Namespace) -> int:
-    from missions.daemons import verbs
-
-    return verbs.agent(mission_of(options), options)
-
-
-def _add_record(parser: argparse.ArgumentParser) -> None:
-    arguments.record_options(parser)
-    add_mission(parser)
-
-
-def _record(options: argparse.Namespace) -> int:
-    from missions.daemons import verbs
-
-    return verbs.record(mission_of(options), options)
+def _process(
+    name: str,
+    summary: str,
+    examples: str,
+    add_options: Callable[[Parser], Parser],
+    run: Callable[[Mission, argparse.Namespace], int],
+) -> Command:
+    """The verb of one process of a mission."""
+    return Command(
+        name=name,
+        summary=summary,
+        examples=examples,
+        add_options=lambda parser: add_mission(add_options(parser)),
+        run=lambda options: run(mission_of(options), options),
+    )
 
 
 def _keys(options: argparse.Namespace) -> int:
     need_extra("keys", "ground", ("cryptography",))
-    from missions.daemons import verbs
-
     return verbs.issue(options)
 
 
-WORLD = Command(
-    name="world",
-    summary="run a mission's world for other processes",
-    examples=arguments.WORLD,
-    add_options=_add_world,
-    run=_world,
+WORLD = _process(
+    "world",
+    "run a mission's world for other processes",
+    arguments.WORLD,
+    arguments.world_options,
+    verbs.world,
 )
-AGENT = Command(
-    name="agent",
-    summary="run one agent of a mission, or several",
-    examples=arguments.AGENT,
-    add_options=_add_agent,
-    run=_agent,
+AGENT = _process(
+    "agent",
+    "run one agent of a mission, or several",
+    arguments.AGENT,
+    arguments.agent_options,
+    verbs.agent,
 )
-RECORD = Command(
-    name="record",
-    summary="record a mission of other processes",
-    examples=arguments.RECORD,
-    add_options=_add_record,
-    run=_record,
+RECORD = _process(
+    "record",
+    "record a mission of other processes",
+    arguments.RECORD,
+    arguments.record_options,
+    verbs.record,
 )
 KEYS = Command(
     name="keys",

@@ -2,19 +2,12 @@
 
 from __future__ import annotations
 
-import argparse
 from functools import partial
 
 from missions.commands.command import Command
+from missions.daemons import verbs
 from missions.daemons.arguments import FLEET as VERBS
 from missions.daemons.arguments import add_fleet, fleet_examples
-
-
-def _tell(verb: str, options: argparse.Namespace) -> int:
-    from missions.daemons import verbs
-
-    return verbs.fleet(verb, options)
-
 
 FLEET = tuple(
     Command(
@@ -22,7 +15,7 @@ FLEET = tuple(
         summary=about,
         examples=fleet_examples(name),
         add_options=add_fleet,
-        run=partial(_tell, name),
+        run=partial(verbs.fleet, name),
     )
     for name, about in VERBS.items()
 )
