@@ -29,15 +29,6 @@ def rerun_command() -> list[str]:
     return [sys.executable, "-m", "rerun_cli"]
 
 
-def repair(source: Path, destination: Path) -> None:
-    """Write what can be read of a recording to `destination`: its writer was killed, or its disk is bad.
-
-    Raises:
-        RuntimeError: rerun's tool is missing or refused, with what it said.
-    """
-    optimize(source, destination, "--continue-on-error")
-
-
 def optimize(source: Path, destination: Path, *options: str) -> None:
     """Write a compacted, indexed copy of `source` to `destination`, whole or not at all; they may be the same.
 

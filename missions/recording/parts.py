@@ -13,7 +13,8 @@ from itertools import chain, count, takewhile
 from pathlib import Path
 
 from missions.recording.blueprint import blueprint
-from missions.recording.optimize import optimize, repair
+from missions.recording.optimize import optimize
+from missions.recording.repair import repair
 from missions.recording.scene import Scene
 from missions.recording.stage import set_stage
 from missions.recording.tape import Tape

@@ -11,8 +11,8 @@ from tempfile import TemporaryDirectory
 from rerun.chunk import RrdReader
 
 from missions.problems import InputError
-from missions.recording.optimize import repair
 from missions.recording.parts import parts_of, unfinished
+from missions.recording.repair import repair
 
 
 @contextmanager

@@ -13,6 +13,7 @@ from msgspec import structs
 from missions.cli import main
 from missions.problems import InputError
 from missions.recording import Recorder
+from missions.recording.optimize import rerun_command
 from missions.recording.playback import play_back
 from missions.review.calls import Fate
 from missions.review.reading import read
@@ -158,16 +159,54 @@ def test_a_recorder_that_came_late_or_dropped_ticks_says_so(tmp_path: Path) -> N
     assert play_back(tmp_path / "toy.rrd").ticks_missing == 27
 
 
-@pytest.mark.parametrize("where", [0.3, 0.6, 0.9])
-def test_a_bad_byte_costs_little_of_a_recording(tmp_path: Path, where: float) -> None:
-    scene, path = toy_scene(), tmp_path / "toy.rrd"
-    with Recorder(path, scene=scene) as recorder:
+@pytest.fixture
+def unfinished(tmp_path: Path) -> bytearray:
+    """A recording as it is while it is written, 60 observations of it on the disk at least."""
+    scene = toy_scene()
+    with Recorder(tmp_path / "toy.rrd", scene=scene) as recorder:
         for one in toy_observations(scene, ticks=120):
             recorder.observe(one)
-        unfinished = bytearray((tmp_path / "toy.rrd.part").read_bytes())
-    unfinished[round(where * len(unfinished))] ^= 0x55
+        return bytearray((tmp_path / "toy.rrd.part").read_bytes())
+
+
+def _beginnings(content: bytes) -> list[int]:
+    """Where each message of a recording begins."""
+    begins, at = [], 12
+    while at < len(content):
+        begins.append(at)
+        at += 16 + int.from_bytes(content[at + 8 : at + 16], "little")
+    return begins
+
+
+@pytest.mark.parametrize("where", [0.3, 0.6, 0.9])
+@pytest.mark.parametrize("offset", [0, 8, 13, 700], ids=["kind", "length", "high byte of length", "content"])
+def test_a_bad_byte_costs_little_of_a_recording(
+    tmp_path: Path, unfinished: bytearray, where: float, offset: int
+) -> None:
+    begins = _beginnings(unfinished)
+    unfinished[begins[round(where * len(begins))] + offset] ^= 0x55
     (tmp_path / "bad.rrd.part").write_bytes(unfinished)
-    assert len(play_back(tmp_path / "bad.rrd.part").observations) > 0
+    assert len(play_back(tmp_path / "bad.rrd.part").observations) >= 50
+
+
+def test_a_message_at_which_the_reader_crashes_is_left_out(
+    tmp_path: Path, unfinished: bytearray, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begins, mark = _beginnings(unfinished), b"what no reader can bear"
+    for where in (0.4, 0.8):
+        at = begins[round(where * len(begins))] + 100
+        unfinished[at : at + len(mark)] = mark
+    (tmp_path / "bad.rrd.part").write_bytes(unfinished)
+    tool = tmp_path / "rerun"
+    tool.write_text(f"""#!/bin/sh
+        for word; do
+            grep -qs '{mark.decode()}' "$word" && exit 102
+        done
+        exec '{rerun_command()[0]}' "$@"
+    """)
+    tool.chmod(0o755)
+    monkeypatch.setenv("RERUN_CLI_PATH", str(tool))
+    assert len(play_back(tmp_path / "bad.rrd.part").observations) >= 50
 
 
 @pytest.mark.parametrize("content", [b"", b"no recording", b"RRF2" + bytes(200)])
