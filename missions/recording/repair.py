@@ -8,6 +8,7 @@ a message is given to it, and one at which it crashes is found by halving, and l
 from __future__ import annotations
 
 import struct
+from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -27,7 +28,7 @@ def repair(source: Path, destination: Path) -> None:
         RuntimeError: rerun's tool is missing, or nothing can be read; with what the tool said.
     """
     content = source.read_bytes()
-    header, messages = content[:_HEADER_BYTES], _messages(content)
+    header, messages = content[:_HEADER_BYTES], _of_known_stores(_messages(content))
     sound = destination.with_name(destination.name + ".sound")
 
     def write(some: Sequence[bytes]) -> None:
@@ -66,6 +67,19 @@ def _messages(content: bytes) -> list[bytes]:
         else:
             start = content.find(_DATA, start + 1)
     return messages
+
+
+def _of_known_stores(messages: Sequence[bytes]) -> list[bytes]:
+    """Those of a recording or a blueprint: who is alone in its store has a bad byte in the store's name."""
+    stores = [_store(message) for message in messages]
+    members = Counter(stores)
+    return [message for message, store in zip(messages, stores, strict=True) if store is None or members[store] > 1]
+
+
+def _store(message: bytes) -> bytes | None:
+    """What a data message is of: its first field, as protobuf has it."""
+    content = message[_MESSAGE.size :]
+    return content[: 2 + content[1]] if message.startswith(_DATA) and len(content) > 1 else None
 
 
 def _end(content: bytes, start: int) -> int | None:
