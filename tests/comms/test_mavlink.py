@@ -5,12 +5,13 @@ from __future__ import annotations
 from itertools import pairwise
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
 from comms.framing import MAX_FRAME_BYTES
 from comms.mavlink import BYTES_OF_A_SOURCE, BYTES_OUT, Endpoint
+from tests.examples import MANY
 
 # Frames of a recorded ArduCopter 4.5.5 SITL.
 ATTITUDE = bytes.fromhex("fd1c0000e601011e0000f3ec00009c1b753bbb4cd1bcc9ec2d390015743adf5763bb95dca4ba8a79")
@@ -94,7 +95,7 @@ def test_unknown_ids_and_flags_are_dropped() -> None:
     assert end.bad >= 2
 
 
-@settings(max_examples=300)
+@MANY
 @given(noise=st.lists(st.binary(max_size=400) | st.just(b"\xfd\xff"), max_size=6))
 def test_no_bytes_raise_and_the_buffer_stays_small(noise: list[bytes]) -> None:
     end = receiver()

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 from ruamel.yaml import YAML
@@ -196,7 +196,6 @@ def accepts_or_explains(data: bytes, *overrides: str) -> None:
         assert isinstance(mission, Mission)
 
 
-@settings(max_examples=150, deadline=None)
 @given(st.binary(max_size=60))
 def test_any_bytes_are_accepted_or_explained(data: bytes) -> None:
     accepts_or_explains(data)
@@ -208,13 +207,11 @@ SCALARS = st.one_of(
 KEYS = st.sampled_from([key for key, _ in leaves(YAML(typ="safe", pure=True).load(REFERENCE))])
 
 
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(st.lists(st.tuples(KEYS, SCALARS), min_size=1, max_size=6), st.text(max_size=12))
 def test_any_values_are_accepted_or_explained(values: list[tuple[str, Any]], text: str) -> None:
     accepts_or_explains(b"name: m\n", *(f"{key}={json.dumps(value)}" for key, value in values), text)
 
 
-@settings(max_examples=100, deadline=None)
 @given(st.integers(0, len(REFERENCE) - 1), st.text(alphabet=" :{}[]#&*!|>'\"%@`-\n\t0a", min_size=1, max_size=3))
 def test_a_slip_of_the_finger_is_accepted_or_explained(place: int, slip: str) -> None:
     accepts_or_explains((REFERENCE[:place] + slip + REFERENCE[place + 1 :]).encode())

@@ -5,13 +5,14 @@ from __future__ import annotations
 from math import hypot, inf, isfinite, nan
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from comms.messages import Frame
 from comms.status import Level
 from swarm_agent.fence import Fence, circle, encloses, polygon
 from swarm_agent.safety import MEMORY_S, Guard, Limit, SafetyConfig, nearest_allowed, stopping_distance_m
+from tests.examples import FEW
 
 TICK_S = 0.1
 ACCELERATION_M_S2 = 2.5
@@ -69,7 +70,7 @@ def test_far_from_everything_the_wish_is_flown_to_the_last_bit(
 
 
 @pytest.mark.parametrize("fence", [SQUARE, ANGLE, circle(60.0)], ids=["square", "angle", "circle"])
-@settings(max_examples=12, deadline=None)
+@FEW
 @given(wishes=st.lists(SPEEDS, min_size=1, max_size=6))
 def test_no_wish_leads_out_of_the_fence(fence: Fence, wishes: list[tuple[float, float]]) -> None:
     drone = Drone(0, -5.0, -5.0, fence)
@@ -78,7 +79,7 @@ def test_no_wish_leads_out_of_the_fence(fence: Fence, wishes: list[tuple[float, 
         assert encloses(fence.corners_m, *drone.place)
 
 
-@settings(max_examples=12, deadline=None)
+@FEW
 @given(wishes=st.lists(SPEEDS, min_size=4, max_size=4))
 def test_no_wish_brings_mates_together(wishes: list[tuple[float, float]]) -> None:
     drones = [Drone(uid, 12.0 * uid - 18.0, 3.0 * uid) for uid in range(4)]
@@ -154,7 +155,6 @@ def test_numbers_that_are_none_are_never_flown(bad: float) -> None:
         assert all(map(isfinite, mine.safe(0.0, position_m, wish)))
 
 
-@settings(deadline=None)
 @given(st.lists(st.tuples(st.floats(-1.0, 1.0), st.floats(-1.0, 1.0), st.floats(-3.0, 5.0)), max_size=6), SPEEDS)
 def test_of_what_is_allowed_the_nearest_to_the_wish(
     rows: list[tuple[float, float, float]], wish: tuple[float, float]

@@ -6,9 +6,10 @@ from itertools import pairwise
 from math import atan, cos, degrees, hypot, tan
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.examples import FEW
 from vehicle_sim.battery import Battery, Charge
 from vehicle_sim.flight import GRAVITY_M_S2, Airframe, Demand, FlightLimits, Multirotor
 
@@ -89,7 +90,6 @@ limits = st.builds(
 TURNING = 1.07  # straight on it keeps its speed limit to 2 %; a random search for the worst turn came to 1.053
 
 
-@settings(max_examples=60)
 @given(limits=limits, demands=st.lists(velocities, min_size=1, max_size=6))
 def test_calm_air_limits_hold_whatever_is_demanded(limits: FlightLimits, demands: list[tuple[float, ...]]) -> None:
     frame = airborne(limits)
@@ -117,7 +117,7 @@ def test_the_tilt_limit_carries_the_speed_limit(speed: float, tilt: float) -> No
     assert frame.north_m_s == pytest.approx(speed, rel=0.02)
 
 
-@settings(max_examples=30)
+@FEW
 @given(velocity=velocities)
 def test_mirrored_demands_give_mirrored_flights(velocity: tuple[float, float, float]) -> None:
     north, east, down = velocity

@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import permutations
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 np = pytest.importorskip("numpy")
@@ -40,7 +40,6 @@ def best_of_all(rows: list[list[float]]) -> tuple[int, float]:
     return min(value(rows, list(columns)) for columns in set(permutations(places, m)))
 
 
-@settings(max_examples=150, deadline=None)
 @given(st.integers(1, 3).flatmap(lambda n: st.lists(st.lists(costs, min_size=n, max_size=n), min_size=1, max_size=3)))
 def test_no_assignment_has_more_pairs_or_a_better_worst_one(rows: list[list[float]]) -> None:
     columns = assigned(rows)

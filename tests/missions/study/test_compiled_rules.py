@@ -6,7 +6,7 @@ import copy
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 np = pytest.importorskip("numpy")
@@ -27,6 +27,7 @@ from swarm_agent.bcmommt.params import (  # noqa: E402
 )
 from swarm_agent.bcmommt.step import Mind  # noqa: E402
 from swarm_agent.policies.choice import decide  # noqa: E402
+from tests.examples import MANY  # noqa: E402
 from tests.swarm_agent.bcmommt.scene import NOW, params  # noqa: E402
 from tests.swarm_agent.policies.test_choice import Scene, build, scenes  # noqa: E402
 
@@ -63,7 +64,7 @@ def with_array_nets(p: Params) -> Params:
     return p._replace(pair_net=pair, triple_net=triple)
 
 
-@settings(max_examples=300, deadline=None)
+@MANY
 @given(scenes, choices, st.sampled_from([NOBODY, 0, 3]), st.floats(0.5, 30.0))
 def test_on_random_tables_both_decide_the_same(
     scene: Scene, chosen: dict[str, Any], helping: int, capture_s: float

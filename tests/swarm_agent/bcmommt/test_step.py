@@ -6,7 +6,7 @@ from math import cos, hypot, sin
 from random import Random
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from comms.messages import Answer, Frame, HelpCall, Tag
@@ -15,6 +15,7 @@ from swarm_agent.bcmommt.modes import Mode
 from swarm_agent.bcmommt.params import Call, Capture, Explore, Gate, Params
 from swarm_agent.bcmommt.speech import answers_said, calls_said, hear, tags_said
 from swarm_agent.bcmommt.step import Mind, decide, new_mind
+from tests.examples import MANY
 from tests.swarm_agent.bcmommt.scene import NOW, PAPER_WORLD, call, claim, params, sense, table
 
 P = PAPER_WORLD
@@ -137,7 +138,7 @@ heard = st.lists(
 )
 
 
-@settings(max_examples=300)
+@MANY
 @given(settings_of_rules, st.lists(st.none() | spot, min_size=4, max_size=4), heard, st.floats(0, 6.28))
 def test_laws_of_every_decision(
     p: Params, spots: list[tuple[float, float, float, float] | None], frames: list[Frame], angle: float

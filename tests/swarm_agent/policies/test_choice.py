@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import cos, hypot, sin
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from swarm_agent.bcmommt import step
@@ -15,6 +15,7 @@ from swarm_agent.bcmommt.params import Explore, Params, Policy
 from swarm_agent.bcmommt.step import Mind, new_mind
 from swarm_agent.policies import a_cmommt, basic, regions
 from swarm_agent.policies.choice import decide
+from tests.examples import MANY
 from tests.swarm_agent.bcmommt.scene import LAST_TICK, NOW, PAPER_WORLD, claim, params, sense, table
 
 ME = 2
@@ -69,7 +70,7 @@ def act(t: Table, p: Params, heading: float = 0.0) -> tuple[Mind, float, float]:
     return decide(t, p, new_mind(*turned(1.0, 0.0, heading)), ME, 0.0, 0.0, NOW, 1, 100)
 
 
-@settings(max_examples=200)
+@MANY
 @given(scenes, st.sampled_from(Policy), st.sampled_from(Explore), st.sampled_from([0.0, 0.5]))
 def test_laws_of_every_policy(scene: Scene, policy: Policy, explore: Explore, standoff: float) -> None:
     p = params(policy=policy, explore=explore, standoff_m=standoff)
@@ -83,7 +84,7 @@ def test_laws_of_every_policy(scene: Scene, policy: Policy, explore: Explore, st
     assert all(seconds >= 0.0 for seconds in t.loss_in_s)
 
 
-@settings(max_examples=200)
+@MANY
 @given(scenes, st.sampled_from([Policy.A_CMOMMT, Policy.B_CMOMMT_BASIC, Policy.B_CMOMMT]), st.floats(0, 6.28))
 def test_turning_the_world_turns_the_decision(scene: Scene, policy: Policy, angle: float) -> None:
     p = params(policy=policy)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from pymavlink.dialects.v20 import ardupilotmega as dialect
 
@@ -10,7 +10,6 @@ from comms.mavlink import BYTES_IN, BYTES_OF_A_SOURCE, BYTES_OUT, Endpoint
 from tests.vehicle_sim.autopilot.ground_station import SYSTEM, flying, velocity
 
 
-@settings(max_examples=60, deadline=None)
 @given(noise=st.binary(max_size=300))
 def test_noise_on_the_line_moves_nothing(noise: bytes) -> None:
     station = flying()
