@@ -5,8 +5,8 @@ BIN := $(VENV)/bin
 PEERS := .venv-peers
 CLIENTS := .venv-clients
 
-.PHONY: run test test-slow test-network test-clients fuzz check format bench bench-processes bench-kills bench-scale \
-	bench-vehicles bench-recording soak pictures bench-peers clean
+.PHONY: run test test-slow test-network test-clients search fuzz check format bench bench-processes bench-kills \
+	bench-scale bench-vehicles bench-recording soak pictures bench-peers clean
 
 run: $(VENV)/ground.done
 	@mkdir -p out
@@ -16,8 +16,9 @@ run: $(VENV)/ground.done
 test: check
 	$(BIN)/python -m pytest -n 2 --dist loadgroup -m "not slow" tests
 
+# All tests, and laws on twenty times as many examples, new ones each time.
 test-slow: $(VENV)/all.done
-	$(BIN)/python -m pytest -n 2 --dist loadgroup tests
+	$(BIN)/python -m pytest -n 2 --dist loadgroup --hypothesis-profile search tests
 
 # Two computers in network namespaces, and a cable between them that is cut: five minutes.
 test-network: $(VENV)/all.done
@@ -26,6 +27,10 @@ test-network: $(VENV)/all.done
 # MAVSDK, MAVProxy and mavutil fly simulated vehicles: some minutes. CLIENT="--only mavsdk" for some of them.
 test-clients: $(VENV)/all.done $(CLIENTS)/clients.done
 	$(CLIENTS)/bin/python -m tests.clients --swarm $(BIN)/python $(CLIENT)
+
+# The laws alone, on new examples: some minutes. A failure prints the example.
+search: $(VENV)/all.done
+	$(BIN)/python -m pytest -n 2 --dist loadgroup --hypothesis-profile search -m "hypothesis and not slow" tests
 
 # A million hostile frames: two to four minutes. FUZZ="--seed 7 --jobs 4"; a failure names the seed and episode to repeat.
 fuzz: $(VENV)/all.done
