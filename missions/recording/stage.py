@@ -61,7 +61,9 @@ class Sizes:
 
 
 def set_stage(tape: Tape, scene: Scene) -> None:
-    """Record everything static."""
+    """Record everything static; what nothing can be read without stands in two places of the file, for bad disks."""
+    _set_properties(tape, scene)
+    tape.flush()
     tape.log_static("/world", rr.ViewCoordinates.RIGHT_HAND_Z_UP)
     _set_ground(tape, scene)
     _set_agents(tape, scene)
