@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import ExitStack
-from time import monotonic, sleep
 
 import pytest
 
@@ -15,7 +14,8 @@ from comms.messages import Frame
 from comms.radio import Radio, Roster
 from comms.session import Bus, BusError, open_local_bus, open_peer
 from comms.turns import MAX_EACH
-from tests.missions.daemons.swarm import PATIENCE_S, free_endpoint
+from tests.missions.daemons.swarm import free_endpoint
+from tests.patience import until
 
 KEYS, ROSTER = Keys("test"), Roster(n_agents=3)
 
@@ -36,13 +36,6 @@ def radios_on(bus: Bus, n: int) -> list[FieldRadio]:
 
 def heard(radio: Radio, now_s: float) -> list[tuple[int, int]]:
     return [(frame.src, frame.seq) for frame in radio.drain(now_s)]
-
-
-def until(holds: Callable[[], object]) -> None:
-    deadline_s = monotonic() + PATIENCE_S
-    while not holds():
-        assert monotonic() < deadline_s, "never came true"
-        sleep(0.01)
 
 
 def test_everybody_is_heard_by_all_others_and_not_by_itself(bus: Bus) -> None:

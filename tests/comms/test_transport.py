@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import termios
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import ExitStack
 from pathlib import Path
 
@@ -15,17 +15,9 @@ from comms.transport import FORMS, Transport, TransportError, transport_of
 from comms.transport.contract import MAX_PEERS, SOURCE_BYTES, WAITING_BYTES
 from comms.transport.udp import PEER_SILENT_S
 from tests.comms.test_mavlink import ATTITUDE, HEARTBEAT
+from tests.patience import until
 
-WAIT_S = 20.0  # for what takes milliseconds, on a busy computer too
 Pair = tuple[Transport, Transport]
-
-
-def until(done: Callable[[], bool]) -> None:
-    """Wait for an event, within reason."""
-    give_up_s = time.monotonic() + WAIT_S
-    while not done():
-        assert time.monotonic() < give_up_s, "it never happened"
-        time.sleep(0.001)
 
 
 def hear(end: Transport, size: int) -> bytes:
@@ -52,9 +44,12 @@ def meet(first: Transport, second: Transport) -> None:
                 heard.add(end)
         return len(heard) == 2
 
+    def all_is_read() -> bool:
+        first.read(0.0), second.read(0.0)
+        return (first.counts.received, second.counts.received) == (second.counts.sent, first.counts.sent)
+
     until(both)
-    time.sleep(0.05)
-    first.read(0.0), second.read(0.0)
+    until(all_is_read)
 
 
 @pytest.fixture(params=["udp", "tcp", "serial"])

@@ -27,7 +27,7 @@ from missions.observation import Observer
 from missions.options import LaunchOptions
 from missions.overrides import Override
 from missions.report import make_report
-from tests.comms.test_transport import until
+from tests.patience import until
 from vehicle_sim.autopilot import SimulatedVehicle
 from vehicle_sim.vehicle import VehicleConfig
 

@@ -12,7 +12,8 @@ import pytest
 
 from missions.daemons.fleet import result_table, status_table
 from missions.daemons.orders import Answer, Report
-from tests.missions.daemons.swarm import COMMAND, PATIENCE_S, SMALL, children, free_endpoint, kill, wait_until_gone
+from tests.missions.daemons.swarm import COMMAND, SMALL, children, free_endpoint, kill, wait_until_gone
+from tests.patience import PATIENCE_S
 
 FLIGHT = ("launch", "quickstart", *SMALL, "--duration", "40", "--speed", "20")
 
@@ -20,13 +21,18 @@ FLIGHT = ("launch", "quickstart", *SMALL, "--duration", "40", "--speed", "20")
 def flying(*words: str) -> subprocess.Popen[str]:
     """A flight whose mission has begun; both its outputs come by one pipe."""
     process = subprocess.Popen((*COMMAND, *words), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    wait_for(process, "mission")
+    return process
+
+
+def wait_for(process: subprocess.Popen[str], text: str) -> None:
+    """Until it has said so."""
     assert process.stdout is not None
     said = ""
-    while "mission" not in said:
+    while text not in said:
         line = process.stdout.readline()
         assert line, f"ended early: {said}"
         said += line
-    return process
 
 
 def close_pipe(process: subprocess.Popen[str]) -> None:
@@ -70,10 +76,8 @@ def test_a_second_signal_ends_it_at_once_but_not_its_report(tmp_path: Path) -> N
     file = tmp_path / "report.json"
     process = flying(*FLIGHT, "--speed", "1", "--report", str(file))
     try:
-        assert process.stdout is not None
         process.send_signal(signal.SIGINT)
-        while "Stopping" not in process.stdout.readline():
-            pass
+        wait_for(process, "Stopping")
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=PATIENCE_S)
     finally:

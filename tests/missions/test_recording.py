@@ -6,7 +6,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -26,6 +25,7 @@ from missions.recording.optimize import rerun_command
 from missions.recording.palette import ACTIVITY_INKS, GROUND, GROUND_FRESH, LEVEL_INKS
 from missions.recording.shapes import ground_mesh
 from tests.missions.toy_observations import PREPARATION, toy_observations, toy_scene
+from tests.patience import PATIENCE_S, until
 
 TICKS = 400
 
@@ -260,10 +260,7 @@ class TestLive:
             url = process.stdout.readline().strip()
             assert b"Rerun" in _fetch(url)
             process.kill()
-        until = time.monotonic() + 20.0
-        while _answers(url):
-            assert time.monotonic() < until, "the page is still served"
-            time.sleep(0.05)
+        until(lambda: not _answers(url))
 
 
 def _answers(url: str) -> bool:
@@ -276,16 +273,10 @@ def _answers(url: str) -> bool:
 
 def _fetch(url: str) -> bytes:
     """What a server says that is about to start."""
-    until = time.monotonic() + 20.0
-    while True:
-        try:
-            with urlopen(url, timeout=5.0) as answer:
-                found: bytes = answer.read()
-                return found
-        except OSError:
-            if time.monotonic() > until:
-                raise
-            time.sleep(0.1)
+    until(lambda: _answers(url))
+    with urlopen(url, timeout=PATIENCE_S) as answer:
+        found: bytes = answer.read()
+        return found
 
 
 class TestTrouble:
@@ -409,8 +400,6 @@ def test_a_file_more_costs_no_threads_but_those_that_rerun_keeps_of_its_view(tmp
     # The short one first: what ends late of it makes the long one's count no larger.
     before = record("short.rrd", None)
     short = threads() - before
-    before, until_s = record("long.rrd", 1.0), time.monotonic() + 30.0
-    while threads() - before - short > 2 * 5 and time.monotonic() < until_s:  # threads end a little later
-        time.sleep(0.1)
-    assert threads() - before - short <= 2 * 5
+    before = record("long.rrd", 1.0)
+    until(lambda: threads() - before - short <= 2 * 5)  # threads end a little later
     assert len(list(tmp_path.glob("long*"))) == 6

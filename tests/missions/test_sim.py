@@ -22,7 +22,7 @@ from missions.cli import main
 from missions.exit_codes import BAD_INPUT, STOPPED
 from missions.sim.options import add_options, sim_options
 from missions.sim.session import TOO_LATE_S, SlippingPace, power_on
-from tests.comms.test_transport import until
+from tests.patience import PATIENCE_S, until
 
 ARGUMENTS = "import sys; from missions.cli import main; sys.exit(main(sys.argv[1:]))"
 
@@ -36,11 +36,11 @@ def running(*arguments: str) -> Iterator[tuple[subprocess.Popen[str], list[str]]
     try:
         assert process.stdout is not None
         first = process.stdout.readline()
-        assert " on " in first, process.communicate(timeout=20)
+        assert " on " in first, process.communicate(timeout=PATIENCE_S)
         yield process, first.strip().partition(" on ")[2].split(", ")
     finally:
         process.kill()
-        process.communicate(timeout=20)
+        process.communicate(timeout=PATIENCE_S)
 
 
 def asked_for_attitude(transport: Transport, system_id: int) -> None:
@@ -66,7 +66,7 @@ def test_a_vehicle_on_three_links_until_ctrl_c(tmp_path: Path) -> None:
             with transport_of(url) as transport:
                 asked_for_attitude(transport, 7)
         process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=20)
+        out, err = process.communicate(timeout=PATIENCE_S)
         assert (process.returncode, err) == (STOPPED, "")
         assert [line.split(": ")[0] for line in out.splitlines()] == [tcp, udp, pty]
         assert not port.is_symlink()

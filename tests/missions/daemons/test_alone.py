@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from threading import Event, Thread
-from time import monotonic, sleep, time
+from time import time
 
 import pytest
 
@@ -18,17 +18,11 @@ from comms.session import Network, open_client, open_router
 from missions.cli import main
 from missions.daemons.fleet import FleetOptions, ask
 from missions.daemons.orders import Answer, Verb
-from tests.missions.daemons.swarm import PATIENCE_S, free_endpoint, swarm
+from tests.missions.daemons.swarm import free_endpoint, swarm
+from tests.patience import PATIENCE_S, until
 
 KEYS = Keys("quickstart")
 LOW = ("agents.count=2", "targets.count=3", "vehicle.boot_s=0.5", "agents.altitude.base_m=2", "radio.mode=field")
-
-
-def until(holds: Callable[[], object]) -> None:
-    deadline_s = monotonic() + PATIENCE_S
-    while not holds():
-        assert monotonic() < deadline_s, "never came true"
-        sleep(0.05)
 
 
 @contextmanager

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import json
 import signal
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import ExitStack
 from pathlib import Path
-from time import monotonic, sleep
 from typing import Any
 
 import pytest
@@ -21,7 +20,8 @@ from comms.messages import Frame
 from comms.radio import Roster
 from comms.session import BusError, Network, open_client, open_peer, open_router
 from missions.cli import main
-from tests.missions.daemons.swarm import PATIENCE_S, SMALL, children, free_endpoint, kill, swarm
+from tests.missions.daemons.swarm import SMALL, children, free_endpoint, kill, swarm
+from tests.patience import until
 
 KEYS = Keys("tour")
 FIELD = ("--set", "radio.mode=field")
@@ -38,13 +38,6 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def radios(n: int = 3) -> tuple[str, str]:
     return "--set", f"radio.endpoints=[{', '.join(free_endpoint() for _ in range(n))}]"
-
-
-def until(holds: Callable[[], object]) -> None:
-    deadline_s = monotonic() + PATIENCE_S
-    while not holds():
-        assert monotonic() < deadline_s, "never came true"
-        sleep(0.01)
 
 
 def reported(file: Path, *words: str) -> dict[str, Any]:

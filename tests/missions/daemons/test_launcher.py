@@ -12,7 +12,8 @@ from missions.daemons import launcher, processes
 from missions.daemons.launcher import run_processes
 from missions.daemons.processes import ProcessPlan
 from missions.sides.phases import RETURN_LIMIT_S
-from tests.missions.daemons.swarm import PATIENCE_S, free_endpoint
+from tests.missions.daemons.swarm import free_endpoint
+from tests.patience import PATIENCE_S
 
 WORLD_CODE = 3
 AWAIT = f"""

@@ -7,7 +7,6 @@ import re
 import signal
 import subprocess
 import sys
-import time
 from html.parser import HTMLParser
 from pathlib import Path
 from urllib.request import urlopen
@@ -20,6 +19,7 @@ from missions.review.comparison import parting_s
 from missions.review.reading import read
 from missions.review.words import clock, clock_s
 from tests.missions.review.conftest import FLOWN, Flown
+from tests.patience import PATIENCE_S, until
 
 
 def _told(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
@@ -186,12 +186,9 @@ def test_a_recording_is_served_to_browsers_until_ctrl_c(flown: Flown) -> None:
             assert process.stdout is not None
             url = next(line.split()[-1] for line in process.stdout if line.startswith("Look at it in a browser: "))
             assert url.startswith("http://127.0.0.1:")
-            until = time.monotonic() + 20.0
-            while not (answers := _answers(url)) and time.monotonic() < until:
-                time.sleep(0.05)
-            assert answers
+            until(lambda: _answers(url))
             process.send_signal(signal.SIGINT)
-            assert process.wait(timeout=20.0) == 0
+            assert process.wait(PATIENCE_S) == 0
         finally:
             process.kill()
     assert not _answers(url)
