@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 from msgspec import structs
 
+from comms.frames import Vec3
 from comms.knowledge import Knowledge
 from comms.messages import Frame, Sighting
 from comms.signing import Signing
@@ -134,7 +135,7 @@ class Agent:
         if on_duty and order.mission_tick is not None and state.position_m and state.velocity_m_s:
             self._mates.hear(now_s, state.position_m, inbox)
             self._perceive(now_s, state.position_m, sightings, inbox)
-            intent = self._decide(now_s, order.mission_tick, state.position_m, hold=order.hold)
+            intent = self._decide(now_s, order.mission_tick, state.position_m, state.velocity_m_s, hold=order.hold)
             frame = self._say(now_s, state.position_m, state.velocity_m_s)
         else:
             intent = Land() if order.land else Return() if come_home else Prepare()
@@ -182,13 +183,13 @@ class Agent:
         for target, x, y in sightings:
             see(table, self._config.params, target, x, y, me[0], me[1], now_s)
 
-    def _decide(self, now_s: float, mission_tick: int, me: tuple[float, float, float], *, hold: bool) -> Fly:
+    def _decide(self, now_s: float, mission_tick: int, me: Vec3, velocity_m_s: Vec3, *, hold: bool) -> Fly:
         config = self._config
         self._mind, east, north = decide(
             self._table, config.params, self._mind, config.uid, me[0], me[1], now_s, config.seed, mission_tick
         )
         self._wanted_m_s = (0.0, 0.0) if hold else (east, north)
-        return Fly(self._guard.safe(now_s, me, self._wanted_m_s))
+        return Fly(self._guard.safe(now_s, me, velocity_m_s, self._wanted_m_s))
 
     def _take_leave(
         self, now_s: float, order: Order, sightings: Sequence[Sighting], inbox: Sequence[Frame], *, goes_home: bool

@@ -4,11 +4,13 @@
         SafetyConfig(uid=3, fence=circle(50.0), separation_m=2.0, max_speed_m_s=5.0, acceleration_m_s2=2.5)
     )
     guard.hear(now_s, inbox)
-    velocity_m_s = guard.safe(now_s, position_m, wish_m_s)  # the wish itself where nothing is near
+    told_m_s = guard.safe(now_s, position_m, velocity_m_s, wish_m_s)  # the wish itself where nothing is near
 
-Everything in the way is a wall, which limits the velocity towards it to what can be braked away before it is reached
-(a control barrier); of what all walls allow, the velocity nearest to the wish is flown. Two agents that both do so
-share the gap between them, half each. Layers keep the others apart.
+Everything in the way is a wall, which limits the velocity towards it (a control barrier): at that velocity it must be
+`slowing_s` away. Who keeps that of all walls can always come to rest straight on, whatever stands where. But what turns
+a vehicle does not brake it: so a velocity that walls bend is changed no faster than the vehicle can follow. It is first
+braked, as all walls ask, and turned towards the wish with what acceleration is left; both ends of that turn are allowed,
+hence all between. Two agents that both do so share the gap between them, half each. Layers keep the others apart.
 """
 
 from __future__ import annotations
@@ -16,7 +18,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import combinations
-from math import cos, hypot, isfinite, radians, sin, sqrt
+from math import cos, hypot, isfinite, radians, sin
 from typing import NamedTuple
 
 from comms.frames import Vec3
@@ -34,7 +36,7 @@ BRAKES = 0.7  # the share of a vehicle's acceleration that is counted on
 BACK_PER_S = 0.5  # who is too far goes back with this speed per meter
 SHORT_M = 1.0  # of the fence: for the noise of positions, and the end of a swing
 GIVE_WAY = radians(20.0)  # mates that meet head-on pass each other on the right
-MOST_WALLS = 12  # the nearest; others are behind them
+MOST_WALLS = 12  # that bend one velocity; two or three do
 TOLERANCE_M_S = 1e-9
 
 
@@ -63,9 +65,18 @@ class Limit(NamedTuple):
     speed_m_s: float
 
 
+def slowing_s(speed_m_s: float, acceleration_m_s2: float) -> float:
+    """How many seconds of its flight an agent keeps free ahead, its reaction included.
+
+    Who then slows down in proportion to the way left comes to rest where it was headed, and never brakes harder than
+    is counted on.
+    """
+    return REACTION_S + speed_m_s / (BRAKES * acceleration_m_s2)
+
+
 def stopping_distance_m(speed_m_s: float, acceleration_m_s2: float) -> float:
-    """How far an agent flies until it has stopped, its reaction included."""
-    return speed_m_s * REACTION_S + speed_m_s**2 / (2.0 * BRAKES * acceleration_m_s2)
+    """How far an agent flies until it has stopped so."""
+    return speed_m_s * slowing_s(speed_m_s, acceleration_m_s2)
 
 
 class Guard:
@@ -73,7 +84,11 @@ class Guard:
 
     def __init__(self, config: SafetyConfig) -> None:
         self._config = config
+        self._brakes_m_s2 = BRAKES * config.acceleration_m_s2
+        self._slowing_s = slowing_s(config.max_speed_m_s, config.acceleration_m_s2)
         self._reach_m = stopping_distance_m(config.max_speed_m_s, config.acceleration_m_s2)
+        self._asked_at_s = 0.0
+        self._course: Velocity | None = None  # what it was told to fly last, unless that was its own wish
         self._mates: dict[int, tuple[float, Frame]] = {}
         self._outside = False
         self._events: list[Event] = []
@@ -88,22 +103,42 @@ class Guard:
         for uid in silent:
             del self._mates[uid]
 
-    def safe(self, now_s: float, position_m: Vec3, wish_m_s: Velocity) -> Velocity:
-        """The velocity nearest to the wish (east, north) that every wall allows; the same numbers if the wish is."""
-        x, y, _ = position_m
-        if not (isfinite(x) and isfinite(y) and isfinite(wish_m_s[0]) and isfinite(wish_m_s[1])):
+    def safe(self, now_s: float, position_m: Vec3, velocity_m_s: Vec3, wish_m_s: Velocity) -> Velocity:
+        """The velocity to fly (east, north): the wish, the same numbers, where no wall forbids it.
+
+        Args:
+            velocity_m_s: how the vehicle flies now.
+        """
+        (x, y, _), (east, north, _) = position_m, velocity_m_s
+        since_s, self._asked_at_s = min(max(now_s - self._asked_at_s, 0.0), REACTION_S), now_s
+        if not all(map(isfinite, (x, y, east, north, *wish_m_s))):
+            self._course = None
             return (0.0, 0.0)
-        fence = walls(self._config.fence, x, y, reach_m=self._reach_m)
+        fence = walls(self._config.fence, x, y, reach_m=self._reach_m + SHORT_M)
         self._say_outside(fence)
         mates = self._mates_near(now_s, position_m) if self._config.separation_m > 0.0 else []
-        short = [wall._replace(distance_m=wall.distance_m - SHORT_M) for wall in fence]
-        nearest = sorted(short + mates, key=lambda wall: wall.distance_m)[:MOST_WALLS]
-        limits = [self._limit(wall) for wall in nearest]
-        if _excess(wish_m_s, limits) <= TOLERANCE_M_S:
+        if not (fence or mates):
+            self._course = None
             return wish_m_s
-        if _excess(wish_m_s, [self._limit(mate) for mate in mates]) > TOLERANCE_M_S:
-            wish_m_s = _turned_right(wish_m_s)
-        return nearest_allowed(wish_m_s, limits, max_speed_m_s=self._config.max_speed_m_s)
+        avoid = [self._limit(mate) for mate in mates]
+        limits = avoid + [self._limit(wall._replace(distance_m=wall.distance_m - SHORT_M)) for wall in fence]
+        if self._course is None and max(_excess(wish_m_s, limits), _excess((east, north), limits)) <= TOLERANCE_M_S:
+            return wish_m_s
+        course = (east, north) if self._course is None else self._course
+        self._course = self._turned(course, wish_m_s, limits, avoid, since_s)
+        return self._course
+
+    def _turned(
+        self, course: Velocity, wish: Velocity, limits: Sequence[Limit], avoid: Sequence[Limit], for_s: float
+    ) -> Velocity:
+        """The course, braked as walls ask; what acceleration that leaves turns it towards the wish."""
+        fastest_m_s = self._config.max_speed_m_s
+        if _excess(wish, avoid) > TOLERANCE_M_S:
+            wish = _turned_right(wish)
+        braked = nearest_allowed(course, limits, max_speed_m_s=fastest_m_s)
+        wanted = nearest_allowed(wish, limits, max_speed_m_s=fastest_m_s)
+        left = self._brakes_m_s2 * for_s - hypot(braked[0] - course[0], braked[1] - course[1])
+        return _moved(braked, wanted, max(left, 0.0))
 
     def take_events(self) -> tuple[Event, ...]:
         """What happened since the last call."""
@@ -134,12 +169,10 @@ class Guard:
         return found
 
     def _limit(self, wall: Wall) -> Limit:
-        """The speed that can be braked away in `distance_m`; a wall that was passed is left behind."""
+        """The speed at which the wall is `_slowing_s` away; a wall that was passed is left behind."""
         if wall.distance_m < 0.0:
             return Limit(wall.east, wall.north, max(BACK_PER_S * wall.distance_m, -self._config.max_speed_m_s))
-        brakes = BRAKES * self._config.acceleration_m_s2
-        lag = brakes * REACTION_S  # speed * REACTION_S + speed^2 / (2 brakes) = distance
-        return Limit(wall.east, wall.north, sqrt(lag * lag + 2.0 * brakes * wall.distance_m) - lag)
+        return Limit(wall.east, wall.north, wall.distance_m / self._slowing_s)
 
     def _say_outside(self, fence: Sequence[Wall]) -> None:
         outside = bool(fence) and fence[0].distance_m < 0.0
@@ -152,18 +185,30 @@ class Guard:
 
 
 def nearest_allowed(wish_m_s: Velocity, limits: Sequence[Limit], *, max_speed_m_s: float) -> Velocity:
-    """Of the velocities that break no limit the one nearest to the wish; where all break one, the one that does least.
+    """Of the velocities that break no limit the one nearest to the wish; where all break one, one that does little.
 
-    It is the wish, or lies on the edge of one limit, or where two edges cross: few enough to look at all of them.
+    Limits are taken into account one by one, each time the one that is broken most: few of many matter.
     """
-    candidates = [wish_m_s, (0.0, 0.0)]
-    candidates += [_pushed(wish_m_s, limit) for limit in limits]
+    velocity, taken = wish_m_s, list[Limit]()
+    while limits and len(taken) < MOST_WALLS:
+        worst = max(limits, key=lambda limit: _excess(velocity, (limit,)))
+        if worst in taken or (taken and _excess(velocity, (worst,)) <= TOLERANCE_M_S):
+            break
+        taken.append(worst)
+        velocity = _nearest_of_few(wish_m_s, taken, max_speed_m_s)
+    return velocity
+
+
+def _nearest_of_few(wish: Velocity, limits: Sequence[Limit], max_speed_m_s: float) -> Velocity:
+    """It is the wish, or lies on the edge of one limit, or where two edges cross: few enough to look at all of them."""
+    candidates = [wish, (0.0, 0.0)]
+    candidates += [_pushed(wish, limit) for limit in limits]
     for one, other in combinations(limits, 2):
         candidates += _crossing(one, other)
 
     def badness(velocity: Velocity) -> tuple[float, float]:
         excess = max(_excess(velocity, limits), hypot(*velocity) - max_speed_m_s)
-        return max(excess, TOLERANCE_M_S), hypot(velocity[0] - wish_m_s[0], velocity[1] - wish_m_s[1])
+        return max(excess, TOLERANCE_M_S), hypot(velocity[0] - wish[0], velocity[1] - wish[1])
 
     return min(candidates, key=badness)
 
@@ -191,3 +236,12 @@ def _crossing(one: Limit, other: Limit) -> list[Velocity]:
 def _turned_right(velocity: Velocity) -> Velocity:
     east, north = velocity
     return east * cos(GIVE_WAY) + north * sin(GIVE_WAY), north * cos(GIVE_WAY) - east * sin(GIVE_WAY)
+
+
+def _moved(velocity: Velocity, towards: Velocity, by_m_s: float) -> Velocity:
+    """The velocity after a change by at most so much; the other one itself if that is not farther."""
+    east, north = towards[0] - velocity[0], towards[1] - velocity[1]
+    change = hypot(east, north)
+    if change <= by_m_s:
+        return towards
+    return velocity[0] + by_m_s / change * east, velocity[1] + by_m_s / change * north

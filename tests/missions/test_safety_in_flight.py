@@ -108,5 +108,5 @@ def test_the_fence_of_an_arena_leaves_room_to_stop() -> None:
     assert compose.fence(disc).core_m == pytest.approx(37.0, rel=0.002)
     arena = "arena={shape: rectangle, width_m: 80, height_m: 50}"
     wide = load_mission("quickstart", overrides=[Override(arena), Override("agents.speed_m_s=7")])
-    stop_m = 7.0 + 49.0 / 3.5
+    stop_m = 7.0 + 49.0 / 1.75
     assert compose.fence(wide).corners_m[0] == pytest.approx((50.0 + stop_m, 35.0 + stop_m))

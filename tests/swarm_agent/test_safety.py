@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from math import hypot, inf, isfinite, nan
+from math import cos, hypot, inf, isfinite, nan, sin, tau
 
 import pytest
-from hypothesis import given
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from comms.messages import Frame
@@ -18,8 +18,10 @@ TICK_S = 0.1
 ACCELERATION_M_S2 = 2.5
 FASTEST_M_S = 8.0
 SEPARATION_M = 2.0
+COMB = polygon([(-40, -10), (60, -10), (60, 80), (40, 80), (40, 10), (20, 10), (20, 50), (-40, 50)])
 SQUARE = polygon([(60.0, 60.0), (-60.0, 60.0), (-60.0, -60.0), (60.0, -60.0)])
 ANGLE = polygon([(-60.0, -60.0), (60.0, -60.0), (60.0, 10.0), (10.0, 10.0), (10.0, 60.0), (-60.0, 60.0)])
+STILL = (0.0, 0.0, 0.0)
 SPEEDS = st.tuples(st.floats(-6.0, 6.0), st.floats(-5.0, 5.0))
 
 
@@ -50,7 +52,7 @@ class Drone:
 
     def fly(self, now_s: float, wish: tuple[float, float], inbox: list[Frame]) -> tuple[float, float]:
         self.guard.hear(now_s, inbox)
-        safe = self.guard.safe(now_s, (self.place[0], self.place[1], 10.0), wish)
+        safe = self.guard.safe(now_s, (self.place[0], self.place[1], 10.0), (self.speed[0], self.speed[1], 0.0), wish)
         self._asked.append(safe)
         want = self._asked.pop(0)
         for axis in (0, 1):
@@ -66,17 +68,48 @@ def test_far_from_everything_the_wish_is_flown_to_the_last_bit(
 ) -> None:
     mine = guard()
     mine.hear(0.0, [Frame(1, 1, 0.0, 1.0, (place[0], place[1], 12.0), (0.0, 0.0, 0.0))])  # another layer
-    assert mine.safe(0.0, (*place, 10.0), wish) is wish
+    assert mine.safe(0.0, (*place, 10.0), (*wish, 0.0), wish) is wish
 
 
-@pytest.mark.parametrize("fence", [SQUARE, ANGLE, circle(60.0)], ids=["square", "angle", "circle"])
+@pytest.mark.parametrize("fence", [SQUARE, ANGLE, COMB, circle(60.0)], ids=["square", "angle", "comb", "circle"])
 @FEW
 @given(wishes=st.lists(SPEEDS, min_size=1, max_size=6))
+@example(wishes=[(0.0, -4.75), (0.0, 1.5), (-6.0, 0.0)])  # who turns does not brake
 def test_no_wish_leads_out_of_the_fence(fence: Fence, wishes: list[tuple[float, float]]) -> None:
     drone = Drone(0, -5.0, -5.0, fence)
     for tick in range(400):
         drone.fly(tick * TICK_S, wishes[tick // 70 % len(wishes)], [])
         assert encloses(fence.corners_m, *drone.place)
+
+
+@FEW
+@given(
+    corners=st.lists(st.tuples(st.floats(0.0, tau), st.floats(5.0, 70.0)), min_size=3, max_size=9),
+    wishes=st.lists(SPEEDS, min_size=1, max_size=6),
+)
+def test_no_wish_leads_out_of_any_fence(corners: list[tuple[float, float]], wishes: list[tuple[float, float]]) -> None:
+    """However acute its corners are, and whichever way it bends."""
+    fence = polygon([(radius_m * cos(angle), radius_m * sin(angle)) for angle, radius_m in sorted(corners)])
+    assume(fence.core_m > 1.0)
+    drone = Drone(0, 0.0, 0.0, fence)
+    for tick in range(300):
+        drone.fly(tick * TICK_S, wishes[tick // 30 % len(wishes)], [])
+        assert encloses(fence.corners_m, *drone.place)
+
+
+def test_a_wall_that_stands_elsewhere_is_not_in_the_way() -> None:
+    """In the longer leg of the comb it flies past the height at which the shorter one ends."""
+    drone = Drone(0, 50.0, 20.0, COMB)
+    for tick in range(400):
+        drone.fly(tick * TICK_S, (0.0, 6.0), [])
+    assert 75.0 < drone.place[1] < 80.0
+
+
+def test_a_wall_is_flown_along_at_full_speed() -> None:
+    drone = Drone(0, -50.0, 57.0, SQUARE)
+    for tick in range(80):
+        drone.fly(tick * TICK_S, (6.0, 6.0), [])
+    assert drone.speed[0] == pytest.approx(6.0, abs=0.01)
 
 
 @FEW
@@ -112,7 +145,7 @@ def test_mates_in_one_place_part() -> None:
     for uid in (0, 1):
         mine = guard(uid)
         mine.hear(0.0, [Frame(1 - uid, 1, 0.0, 1.0, here, (0.0, 0.0, 0.0))])
-        velocities.append(mine.safe(0.0, here, (0.0, 0.0)))
+        velocities.append(mine.safe(0.0, here, STILL, (0.0, 0.0)))
     assert velocities[0][0] > 0.2
     assert velocities[1][0] < -0.2
 
@@ -120,25 +153,25 @@ def test_mates_in_one_place_part() -> None:
 def test_a_mate_that_falls_silent_is_expected_on_its_way_and_then_forgotten() -> None:
     mine = guard()
     mine.hear(0.0, [Frame(1, 1, 0.0, 1.0, (10.0, 0.0, 10.0), (-4.0, 0.0, 0.0))])
-    assert mine.safe(0.0, (0.0, 0.0, 10.0), (1.0, 0.0)) == (1.0, 0.0)
-    assert mine.safe(1.5, (0.0, 0.0, 10.0), (1.0, 0.0))[0] < 1.0  # it should be 4 m away by now
+    assert mine.safe(0.0, (0.0, 0.0, 10.0), (0.5, 0.0, 0.0), (0.5, 0.0)) == (0.5, 0.0)
+    assert mine.safe(1.5, (0.0, 0.0, 10.0), (0.5, 0.0, 0.0), (0.5, 0.0))[0] < 0.5  # it should be 4 m away by now
     mine.hear(MEMORY_S + 0.1, [])
-    assert mine.safe(MEMORY_S + 0.1, (0.0, 0.0, 10.0), (1.0, 0.0)) == (1.0, 0.0)
+    assert mine.safe(MEMORY_S + 0.1, (0.0, 0.0, 10.0), (1.0, 0.0, 0.0), (1.0, 0.0)) == (1.0, 0.0)
 
 
 def test_without_a_separation_mates_do_not_matter() -> None:
     mine = guard(separation_m=0.0)
     mine.hear(0.0, [Frame(1, 1, 0.0, 1.0, (0.1, 0.0, 10.0), (0.0, 0.0, 0.0))])
-    assert mine.safe(0.0, (0.0, 0.0, 10.0), (5.0, 0.0)) == (5.0, 0.0)
+    assert mine.safe(0.0, (0.0, 0.0, 10.0), (5.0, 0.0, 0.0), (5.0, 0.0)) == (5.0, 0.0)
 
 
 def test_who_is_outside_says_so_once_and_comes_back() -> None:
     mine = guard()
     for now_s in (0.0, 0.1):
-        assert mine.safe(now_s, (64.0, 0.0, 10.0), (5.0, 1.0))[0] == pytest.approx(-2.5)
+        assert mine.safe(now_s, (64.0, 0.0, 10.0), STILL, (5.0, 1.0))[0] == pytest.approx(-2.5)
     (event,) = mine.take_events()
     assert (event.level, event.text) == (Level.ERROR, "4.0 m outside its fence: coming back")
-    mine.safe(0.2, (59.0, 0.0, 10.0), (0.0, 0.0))
+    mine.safe(0.2, (59.0, 0.0, 10.0), STILL, (0.0, 0.0))
     assert [event.text for event in mine.take_events()] == ["inside its fence again"]
 
 
@@ -152,7 +185,7 @@ def test_numbers_that_are_none_are_never_flown(bad: float) -> None:
         ((0.0, 0.0, 10.0), (bad, 0.0)),
         ((59.0, 0.0, bad), (5, 5)),
     ]:
-        assert all(map(isfinite, mine.safe(0.0, position_m, wish)))
+        assert all(map(isfinite, mine.safe(0.0, position_m, STILL, wish)))
 
 
 @given(st.lists(st.tuples(st.floats(-1.0, 1.0), st.floats(-1.0, 1.0), st.floats(-3.0, 5.0)), max_size=6), SPEEDS)
@@ -176,4 +209,4 @@ def test_of_what_is_allowed_the_nearest_to_the_wish(
 
 def test_the_way_to_stop() -> None:
     assert stopping_distance_m(0.0, 2.5) == 0.0
-    assert stopping_distance_m(7.0, 2.5) == pytest.approx(7.0 + 49.0 / 3.5)
+    assert stopping_distance_m(7.0, 2.5) == pytest.approx(7.0 + 49.0 / 1.75)
