@@ -7,10 +7,11 @@
     told_m_s = guard.safe(now_s, position_m, velocity_m_s, wish_m_s)  # the wish itself where nothing is near
 
 Everything in the way is a wall, which limits the velocity towards it (a control barrier): at that velocity it must be
-`slowing_s` away. Who keeps that of all walls can always come to rest straight on, whatever stands where. But what turns
-a vehicle does not brake it: so a velocity that walls bend is changed no faster than the vehicle can follow. It is first
-braked, as all walls ask, and turned towards the wish with what acceleration is left; both ends of that turn are allowed,
-hence all between. Two agents that both do so share the gap between them, half each. Layers keep the others apart.
+`slowing_s` away. Who keeps that of all walls can always come to rest straight on, whatever stands where. But what
+turns a vehicle does not brake it: so a velocity that walls bend is changed no faster than the vehicle can follow. It
+is first braked, as all walls ask, and turned towards the wish with what acceleration is left; both ends of that turn
+are allowed, hence all between. Two agents that both do so share the gap between them, half each. Layers keep the
+others apart.
 """
 
 from __future__ import annotations
