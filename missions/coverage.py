@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Sequence
+from itertools import repeat
+
+_COUNT = "H"  # two bytes: a day of ticks is three megabytes
 
 
 class Coverage:
     """Targets seen and targets present, tick by tick. Where targets come and go, sums of both are divided."""
 
     def __init__(self) -> None:
-        self._seen: list[int] = []
-        self._present: list[int] = []
+        self._seen = array(_COUNT)
+        self._present = array(_COUNT)
         self._seen_in_all = 0
         self._present_in_all = 0
 
     def add(self, *, seen: int, present: int, tick: int | None = None) -> None:
         """Count one tick: the next, or that `tick` of the mission; between them nothing was to be seen."""
         missing = 0 if tick is None else max(0, tick - len(self._seen))
-        self._seen += [0] * missing
-        self._present += [0] * missing
+        self._seen.extend(repeat(0, missing))
+        self._present.extend(repeat(0, missing))
         self._seen.append(seen)
         self._present.append(present)
         self._seen_in_all += seen
