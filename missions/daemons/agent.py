@@ -114,8 +114,8 @@ class _Daemon:
             self._greet()
             self._mail.wait(self._awaited(), timeout_s=self._patience_s())
             self._answer()
-            for uid, wire in self._mail.take().items():
-                self._take(self._seats[uid], wire)
+            for uid, wires in self._mail.take().items():
+                self._take(self._seats[uid], wires[-1])
             if not any(seat.met for seat in self._seats.values()):
                 if self._ending.asked:
                     break

@@ -147,10 +147,11 @@ class RemoteCrew:
 
     def _collect(self) -> None:
         """Take in what has come, and who has died."""
-        for uid, wire in self._mail.take().items():
-            done = decode_done(wire, uid)
-            if done is not None:
-                self._hear(uid, done)
+        for uid, wires in self._mail.take().items():
+            for wire in wires:
+                done = decode_done(wire, uid)
+                if done is not None:
+                    self._hear(uid, done)
         while self._dead:
             uid = self._dead.pop()
             if uid in self._dones and uid not in self._missing:
