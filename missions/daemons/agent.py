@@ -1,6 +1,7 @@
 """`swarm agent`: one agent with its vehicle in a process of its own, or several on one session.
 
 It says hello until the world cues it, and then does a tick for each cue. Asked to end, it flies home, lands, and goes.
+Where another process is the agent already, the world does not let it in, and it goes at once.
 While the world is silent it holds still on its own clock (`seat`, `contact`) and says hello; after the mission's
 `agents.world_timeout_s` it flies home, and so it does when the world ends.
 """
@@ -18,11 +19,11 @@ from comms.keys import WORLD, Keys, sender, verb_of
 from comms.mailbox import Mailbox
 from comms.radio import Radio
 from comms.session import BusError, Network
-from comms.status import Activity, Event
+from comms.status import Activity, Event, Level
 from comms.transport import Transport
 from missions import compose
 from missions.daemons.airwaves import open_airwaves
-from missions.daemons.joining import open_world, unmet
+from missions.daemons.joining import new_life, open_world, unmet
 from missions.daemons.log import Log
 from missions.daemons.options import DaemonOptions, await_world_s, fingerprint
 from missions.daemons.orders import Answer, Verb, encode_answer
@@ -31,7 +32,7 @@ from missions.daemons.seat import Seat
 from missions.daemons.security import silence
 from missions.daemons.wire import OVER, decode_cue
 from missions.ending import Ending
-from missions.exit_codes import DONE, FAILED, STOPPED
+from missions.exit_codes import BAD_INPUT, FAILED, STOPPED
 from missions.links import open_transports
 from missions.mission import Mission
 from missions.sides.agent import agent_sides
@@ -93,6 +94,7 @@ class _Daemon:
         self._mail = Mailbox(self._radios)
         self._questions: Questions[int] = Questions()
         self._fingerprint = fingerprint(mission, options.speed)
+        self._life = new_life()
         self._greeted_at_s = -inf
         self._gone_at_s: float | None = None
         self._is_world_there = False
@@ -109,13 +111,12 @@ class _Daemon:
         bus.watch(keys.alive(WORLD), self._on_world)
         self._log.info("ready")
         deadline_s = monotonic() + self._options.join_s
-        code = DONE
         while self._flying():
             self._greet()
             self._mail.wait(self._awaited(), timeout_s=self._patience_s())
             self._answer()
             for uid, wires in self._mail.take().items():
-                self._take(self._seats[uid], wires[-1])
+                self._take(self._seats[uid], wires)
             if not any(seat.met for seat in self._seats.values()):
                 if self._ending.asked:
                     break
@@ -128,10 +129,10 @@ class _Daemon:
                     )
                     return FAILED
             elif self._is_closing or self._is_world_lost():
-                code = self._fly_home()
+                self._fly_home()
             else:
-                code = max(code, self._go_on_alone())
-        return STOPPED if self._ending.interrupted else code
+                self._go_on_alone()
+        return STOPPED if self._ending.interrupted else max(seat.code for seat in self._seats.values())
 
     def _flying(self) -> list[Seat]:
         return [seat for seat in self._seats.values() if not seat.over]
@@ -155,7 +156,8 @@ class _Daemon:
             started_tick=started_tick,
         )
         period_s = None if self._options.lockstep else self._mission.tick_s / self._options.speed
-        return Seat(side, self._bus.publisher(self._keys.done(uid)), self._mission, period_s=period_s)
+        put = self._bus.publisher(self._keys.done(uid))
+        return Seat(side, put, self._mission, life=self._life, period_s=period_s)
 
     def _greet(self) -> None:
         now_s = monotonic()
@@ -164,15 +166,27 @@ class _Daemon:
             for seat in self._seats.values():
                 seat.greet(self._fingerprint)
 
-    def _take(self, seat: Seat, wire: bytes) -> None:
-        """One message from the world."""
-        if wire == OVER:
-            self._is_closing = self._is_closing or seat.is_aloft
-            seat.over = not seat.is_aloft
+    def _take(self, seat: Seat, wires: Iterable[bytes]) -> None:
+        """What has come from the world: of cues the newest one counts."""
+        newest = None
+        for wire in wires:
+            if wire == OVER:
+                self._is_closing = self._is_closing or seat.is_aloft
+                seat.over = not seat.is_aloft
+                return
+            cue = decode_cue(wire)
+            if cue is not None and cue.life == self._life:
+                newest = cue
+        if newest is None:
             return
-        cue = decode_cue(wire)
-        if cue is None:
-            return
+        if newest.refused:
+            self._log.say(Level.ERROR, newest.refused, who=agents_name([seat.uid]))
+            seat.end(BAD_INPUT)
+        else:
+            self._heed(seat, newest)
+
+    def _heed(self, seat: Seat, cue: Cue) -> None:
+        """Do the tick of a cue."""
         if not seat.met and cue.tick > 0:
             # It comes back to a mission that is under way: its vehicle is switched on now.
             seat = self._seats[seat.uid] = self._seat(seat.uid, started_tick=cue.tick)
@@ -180,9 +194,9 @@ class _Daemon:
         self._obey(seat)
         self._say(seat, seat.take(cue))
 
-    def _go_on_alone(self) -> int:
-        """Whoever hears nothing of the world does what is due; the exit code of those who are over by that."""
-        code, now_s = DONE, monotonic()
+    def _go_on_alone(self) -> None:
+        """Whoever hears nothing of the world does what is due, and is over once it has flown home."""
+        now_s = monotonic()
         for seat in self._flying():
             if not seat.met:
                 continue
@@ -193,8 +207,7 @@ class _Daemon:
                 if seat.last is before:
                     break
             if seat.is_given_up and seat.has_ended:
-                seat.over, code = True, FAILED
-        return code
+                seat.end(FAILED)
 
     def _obey(self, seat: Seat) -> None:
         if self._ending.asked:
@@ -236,12 +249,12 @@ class _Daemon:
         is_awaited = lockstep or is_local(self._options.endpoint)
         return is_awaited and monotonic() - gone_at_s > await_world_s(self._mission, self._options)
 
-    def _fly_home(self) -> int:
+    def _fly_home(self) -> None:
         """The world has ended, and with it the clock: who is still up comes down by itself."""
         for seat in self._flying():
             seat.over = seat.activity is Activity.LANDED
         if not self._flying():
-            return DONE
+            return
         self._log.error("the world has gone: flying home")
         tick_s = self._mission.tick_s
         pace: Pace = RealTime(tick_s=tick_s, speed=1.0) if self._transports else Lockstep()
@@ -249,11 +262,11 @@ class _Daemon:
         for tick in range(first, first + round(RETURN_LIMIT_S / tick_s)):
             pace.begin(tick)
             for seat in self._flying():
-                self._obey(seat)
+                seat.orders.take(Verb.STOP, seat.activity)
                 self._say(seat, seat.do(seat.contact.come_home(tick)).status.events)
-                seat.over = seat.over or seat.has_ended
+                if seat.over or seat.has_ended:
+                    seat.end(FAILED)
             if not self._flying():
                 break
         for seat in self._flying():
-            seat.over = True
-        return FAILED
+            seat.end(FAILED)

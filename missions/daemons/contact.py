@@ -51,6 +51,10 @@ class Contact:
         """The world goes on."""
         self.last, self._heard_at_s = cue, now_s
 
+    def silent_s(self, now_s: float) -> float:
+        """How long no cue was heeded; for ever if none was."""
+        return inf if self.last is None else now_s - self._heard_at_s
+
     def due_s(self, next_tick: int) -> float:
         """When the agent does this tick alone, unless it is cued before."""
         if self.last is None or self._period_s is None:

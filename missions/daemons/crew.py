@@ -1,7 +1,8 @@
 """The agents of a mission in processes of their own, as the world sees them: the barrier of each tick.
 
 A tick is published as one cue an agent; it is over when every agent's done is there. An agent that does not answer in
-time, or whose process is seen to die, is lost: that is told, and nobody waits for it until it says hello again.
+time, or whose process is seen to die, is lost: that is told, and nobody waits for it until it says hello again
+(`member`).
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from comms.keys import Keys, sender
 from comms.mailbox import Mailbox
 from comms.session import Network
 from comms.status import Activity, Event, Level
+from missions.daemons.member import Member
 from missions.daemons.wire import OVER, decode_done, encode
 from missions.sides.exchange import HELLO_TICK, Cue, Done
 from missions.sides.medium import Medium
@@ -25,6 +27,10 @@ LOOK_S = 0.2
 AWAKE_S = 1.0  # between two looks of ours; what is more, we have stood still ourselves
 FRAME_LOOK_S = 1e-4
 STRANGE = "has another mission, or another --speed, and is not let in: are its file and options the world's?"
+TAKEN = "is there already, in another process, which goes on: a second one is not let in"
+BACK = "its process is back"
+DIED = "its process has died, or its link is cut"
+LEFT_IN_AIR = "its process has left, and its vehicle is in the air"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -76,17 +82,12 @@ class RemoteCrew:
         self._fingerprint = fingerprint
         self._tell = tell
         self._stop = stop
+        self._members = [Member(uid) for uid in range(n_agents)]
         self._mail = Mailbox(range(n_agents))
         self._puts = [bus.publisher(keys.cue(uid)) for uid in range(n_agents)]
-        self._missing = set(range(n_agents))  # not met, lost, or left
-        self._dones: dict[int, Done] = {}
         self._awake = Awake(most_s=AWAKE_S)
-        self._heard_at_s: dict[int, float] = {}
-        self._new: set[int] = set()  # its radio has not been waiting for what is under way
         self._dead: set[int] = set()  # seen to die, from another thread
-        self._lost_at_s: dict[int, float] = {}
-        self._news: dict[int, list[Event]] = {}
-        self._strangers: set[int] = set()
+        self._refused: set[tuple[int, str]] = set()  # who, and why: told once
         self._tick = HELLO_TICK  # under way
         bus.subscribe(keys.every_done, lambda key, payload: self._mail.put(sender(key), payload))
         bus.watch(keys.every_alive, self._on_change)
@@ -98,18 +99,18 @@ class RemoteCrew:
             CrewError: somebody is not, in time.
         """
         deadline_s = monotonic() + self._patience.join_s
-        while self._missing:
-            self._mail.wait(self._missing, timeout_s=LOOK_S)
-            self._collect()
-            if self._missing and self._stop():
+        while missing := [member.uid for member in self._members if not member.is_there]:
+            if self._stop():
                 raise CrewError("asked to end before everybody was there")
-            if self._missing and monotonic() > deadline_s:
-                names = ", ".join(map(str, sorted(self._missing)))
-                raise CrewError(f"no sign of agent {names} for {self._patience.join_s:g} s")
+            if monotonic() > deadline_s:
+                raise CrewError(f"no sign of agent {', '.join(map(str, missing))} for {self._patience.join_s:g} s")
+            self._mail.wait(missing, timeout_s=LOOK_S)
+            self._collect()
         self.lost.clear()
-        self._new.clear()
-        self._news.clear()
-        return [self._dones[uid] for uid in sorted(self._dones)]
+        for member in self._members:
+            member.is_new = False
+            member.news.clear()
+        return [member.last for member in self._members]
 
     def tick(self, cues: Sequence[Cue]) -> list[Done]:
         """Let everybody who is there do its tick; who is not is LOST, where it was last.
@@ -120,22 +121,20 @@ class RemoteCrew:
         self._collect()
         if self._patience.lockstep:
             self._await_anybody()
-        tick, waiting = cues[0].tick, {uid for uid in self._dones if uid not in self._missing}
-        self._tick = tick
-        for uid in waiting:
-            unchecked = uid in self._new or not self._patience.lockstep
-            self._puts[uid](encode(structs.replace(cues[uid], frames=None) if unchecked else cues[uid]))
-        self._new.clear()
+        tick = self._tick = cues[0].tick
+        waiting = [member for member in self._members if member.is_there]
+        for member in waiting:
+            self._cue(member, cues[member.uid])
         deadline_s = self._awake.now_s() + self._patience.tick_s
         while waiting and (left_s := deadline_s - self._awake.now_s()) > 0.0:
-            self._mail.wait(waiting, timeout_s=min(LOOK_S, left_s))
+            self._mail.wait([member.uid for member in waiting], timeout_s=min(LOOK_S, left_s))
             self._collect()
-            waiting = {uid for uid in waiting - self._missing if self._dones[uid].tick != tick}
-        for uid in waiting:
-            silent_s = self._awake.now_s() - self._heard_at_s[uid]
+            waiting = [member for member in waiting if member.owes(tick)]
+        for member in waiting:
+            silent_s = self._awake.now_s() - member.heard_at_s
             if self._patience.lockstep or silent_s > self._patience.lost_s:
-                self._lose(uid, f"no answer for {silent_s:.0f} s: lost")
-        dones = [self._now(uid, tick) for uid in range(len(cues))]
+                self._lose(member, f"no answer for {silent_s:.0f} s: lost")
+        dones = [member.tell(tick, may_be_back=self._may_be_back(member)) for member in self._members]
         if self._patience.lockstep:
             self._await_frames(sum(done.spoke for done in dones))
         return dones
@@ -145,77 +144,75 @@ class RemoteCrew:
         for put in self._puts:
             put(OVER)
 
+    def _cue(self, member: Member, cue: Cue) -> None:
+        # The radio of one that is new has not been waiting for what is under way.
+        unchecked = member.is_new or not self._patience.lockstep
+        frames = None if unchecked else cue.frames
+        self._puts[member.uid](encode(structs.replace(cue, frames=frames, life=member.life)))
+        member.is_new = False
+
     def _collect(self) -> None:
         """Take in what has come, and who has died."""
         for uid, wires in self._mail.take().items():
             for wire in wires:
                 done = decode_done(wire, uid)
                 if done is not None:
-                    self._hear(uid, done)
+                    self._hear(self._members[uid], done)
         while self._dead:
             uid = self._dead.pop()
-            if uid in self._dones and uid not in self._missing:
-                self._lose(uid, "its process has died, or its link is cut")
+            if uid < len(self._members) and self._members[uid].is_there:
+                self._lose(self._members[uid], DIED)
 
-    def _hear(self, uid: int, done: Done) -> None:
-        if done.tick == HELLO_TICK and done.fingerprint != self._fingerprint:
-            if uid not in self._strangers:
-                self._strangers.add(uid)
-                self._tell(uid, Event(Level.ERROR, STRANGE))
-            return
-        if done.tick > self._tick:
-            return  # of a tick that has not begun
-        if uid in self._missing:
-            if uid in self._dones:
-                done = structs.replace(done, spoke=False)
-                self._say(uid, Event(Level.WARNING, "its process is back"))
-            self._missing.discard(uid)
-            self._lost_at_s.pop(uid, None)
-            self._new.add(uid)
-        elif done.tick == HELLO_TICK:
-            return  # said again before our cue came
-        self._news.setdefault(uid, []).extend(done.status.events)
-        if uid in self._dones and HELLO_TICK < done.tick < self._dones[uid].tick:
-            return  # late: we know better by now
-        self._dones[uid] = structs.replace(done, status=structs.replace(done.status, events=()))
-        self._heard_at_s[uid] = self._awake.now_s()
-        if done.leaves:
-            self._missing.add(uid)
+    def _hear(self, member: Member, done: Done) -> None:
+        now_s = self._awake.now_s()
+        if done.tick == HELLO_TICK:
+            self._greet(member, done, now_s)
+        elif done.tick <= self._tick:  # or it is of a tick that has not begun
+            was_there = member.is_there
+            member.hear(done, now_s)
+            has_left = was_there and not member.is_there
+            if has_left and not done.on_ground and done.status.activity is not Activity.LOST:
+                self._lose(member, LEFT_IN_AIR)
 
-    def _lose(self, uid: int, why: str) -> None:
-        self._missing.add(uid)
-        self.lost.add(uid)
-        self._say(uid, Event(Level.ERROR, why))
-        last = self._dones[uid]
-        gone = structs.replace(last.status, activity=Activity.LOST, tags=(), calls=(), helping=None, mates=())
-        self._dones[uid] = structs.replace(last, status=gone, ready=False)
-        self._lost_at_s[uid] = self._awake.now_s()
+    def _greet(self, member: Member, hello: Done, now_s: float) -> None:
+        """A process says that it is there, and is let in, or told why not, or has to wait."""
+        if hello.fingerprint != self._fingerprint:
+            self._refuse(member.uid, hello.life, STRANGE)
+        elif member.is_rival_in_vain(hello.life):
+            self._refuse(member.uid, hello.life, TAKEN)
+        else:
+            has_come = member.done is not None
+            if member.greet(hello, now_s) and has_come:
+                self._say(member, Event(Level.WARNING, BACK))
 
-    def _say(self, uid: int, event: Event) -> None:
+    def _refuse(self, uid: int, life: int, why: str) -> None:
+        self._puts[uid](encode(Cue(tick=self._tick, life=life, refused=why)))
+        if (uid, why) not in self._refused:
+            self._refused.add((uid, why))
+            self._tell(uid, Event(Level.ERROR, why))
+
+    def _lose(self, member: Member, why: str) -> None:
+        self.lost.add(member.uid)
+        self._say(member, Event(Level.ERROR, why))
+        member.lose(self._awake.now_s())
+
+    def _say(self, member: Member, event: Event) -> None:
         """To whoever watches, and with the agent's next status to whoever observes."""
-        self._news.setdefault(uid, []).append(event)
-        self._tell(uid, event)
+        member.news.append(event)
+        self._tell(member.uid, event)
 
-    def _now(self, uid: int, tick: int) -> Done:
-        """What is known of an agent in this tick: its done, or its last one with nothing new but what came late."""
-        done, status = self._dones[uid], self._dones[uid].status
-        if done.tick != tick:
-            done, status = structs.replace(done, spoke=False), structs.replace(status, knowledge=None)
-        if not self._may_be_back(uid):
-            done = structs.replace(done, on_ground=True, unheard=True)
-        news = self._news.pop(uid, None)
-        return structs.replace(done, status=structs.replace(status, events=tuple(news)) if news else status)
-
-    def _may_be_back(self, uid: int) -> bool:
-        lost_at_s = self._lost_at_s.get(uid)
-        return lost_at_s is None or self._awake.now_s() - lost_at_s < self._patience.back_s
+    def _may_be_back(self, member: Member) -> bool:
+        """Whether there is still hope for it, or no need."""
+        return member.lost_at_s is None or self._awake.now_s() - member.lost_at_s < self._patience.back_s
 
     def _await_anybody(self) -> None:
         """In lockstep time stands still while everybody is cut off."""
-        while self._dones.keys() <= self._missing and any(self._may_be_back(uid) for uid in self._lost_at_s):
+        while not any(member.is_there for member in self._members) and any(
+            member.lost_at_s is not None and self._may_be_back(member) for member in self._members
+        ):
             if self._stop():
                 return
-            self._mail.wait(self._lost_at_s, timeout_s=LOOK_S)
+            self._mail.wait(range(len(self._members)), timeout_s=LOOK_S)
             self._collect()
 
     def _await_frames(self, n_frames: int) -> None:

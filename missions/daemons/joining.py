@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import secrets
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -34,6 +35,11 @@ def open_world(options: DaemonOptions, *, ending: Ending, log: Log, n_peers: int
         n_peers=n_peers,
     ) as bus:
         yield bus
+
+
+def new_life() -> int:
+    """What tells this process from all others that are, were or will be in its place. No decision depends on it."""
+    return 1 + secrets.randbits(52)
 
 
 def unmet(error: BusError, mission: Mission, options: DaemonOptions, *, ending: Ending, log: Log) -> int:

@@ -13,25 +13,29 @@ from comms.status import Activity, Event, Level
 from missions.daemons.contact import Contact
 from missions.daemons.orders import Orders, Watch
 from missions.daemons.wire import encode
+from missions.exit_codes import DONE, FAILED
 from missions.mission import Mission
 from missions.sides.agent import AgentSide
 from missions.sides.exchange import Cue, Done
+from missions.sides.phases import PERSONS_LIMIT_S
 
 MAX_UNTOLD = 50  # events of a time alone; the oldest go
+FORGOTTEN_S = 1.0  # wall clock: without a cue for so long, the world may have given it up
+LEFT_TO_PERSON = f"is to end, and a person has flown its vehicle for {PERSONS_LIMIT_S:g} s: it is left to them"
 
 
 class Seat:
     """What a daemon keeps for agent `uid`.
 
     Args:
-        put: where its dones go. period_s: wall seconds a tick; None: in lockstep.
+        put: where its dones go. life: of this process. period_s: wall seconds a tick; None: in lockstep.
 
     Attributes:
         last: its last done. orders: what people told it. watch: what they are shown. contact: to the world.
-        met: the world has cued it. away: and does not any more. over: it has ended.
+        met: the world has cued it. away: and does not any more. over: it has ended; code: with this exit code.
     """
 
-    def __init__(self, side: AgentSide, put: Put, mission: Mission, *, period_s: float | None) -> None:
+    def __init__(self, side: AgentSide, put: Put, mission: Mission, *, life: int, period_s: float | None) -> None:
         self.side = side
         self.last = side.hello()
         self.orders = Orders()
@@ -40,6 +44,9 @@ class Seat:
         self.met = False
         self.away = False
         self.over = False
+        self.code = DONE
+        self._life = life
+        self._persons_since: int | None = None  # tick
         self._put = put
         self._mission = mission
         self._untold: deque[Event] = deque(maxlen=MAX_UNTOLD)
@@ -66,8 +73,12 @@ class Seat:
 
     def greet(self, fingerprint: str) -> None:
         """Say hello, if the world does not cue it."""
-        if (self.away or not self.met) and not self.over:
-            self._put(encode(structs.replace(self.side.hello(), fingerprint=fingerprint)))
+        if (self.away or self.contact.silent_s(monotonic()) > FORGOTTEN_S) and not self.over:
+            self._put(encode(structs.replace(self.side.hello(), fingerprint=fingerprint, life=self._life)))
+
+    def end(self, code: int) -> None:
+        """There is nothing left to do for it."""
+        self.over, self.code = True, code
 
     def take(self, cue: Cue) -> Sequence[Event]:
         """Do the tick of a cue from the world, and tell it; what happened without it, too. Returns what is new.
@@ -92,7 +103,7 @@ class Seat:
             told = structs.replace(self.last, tick=cue.tick, spoke=False)
         events = (*self._untold, *news)
         self._untold.clear()
-        self._put(encode(structs.replace(told, status=structs.replace(told.status, events=events))))
+        self._put(encode(structs.replace(told, status=structs.replace(told.status, events=events), life=self._life)))
         return news
 
     def go_on_alone(self, now_s: float) -> Sequence[Event]:
@@ -128,9 +139,28 @@ class Seat:
         began_s = monotonic()
         done = self.side.tick(self.orders.amend(cue))
         self.watch.see(done, time_s=cue.tick * self._mission.tick_s, late_s=cue.late_s, busy_s=monotonic() - began_s)
-        is_down = done.on_ground and done.status.activity in (Activity.LANDED, Activity.LOST)
-        if self.orders.leave and (is_down or done.unheard):
-            done = structs.replace(done, leaves=True)
-            self.over = True
+        if self.orders.leave:
+            done = self._leaving(done, cue.tick)
         self.last = done
         return done
+
+    def _leaving(self, done: Done, tick: int) -> Done:
+        """It is to end: whether it can, by now."""
+        status = done.status
+        has_landed = done.on_ground and status.activity in (Activity.LANDED, Activity.LOST)
+        if self._is_left_to_person(status.activity, tick):
+            left = Event(Level.WARNING, LEFT_TO_PERSON)
+            done = structs.replace(done, status=structs.replace(status, events=(*status.events, left)))
+        elif not (has_landed or done.unheard):
+            return done
+        self.end(DONE if done.on_ground else FAILED)
+        return structs.replace(done, leaves=True)
+
+    def _is_left_to_person(self, activity: Activity, tick: int) -> bool:
+        """Whether somebody else flies its vehicle, and has for so long that it will not be given back."""
+        if activity is not Activity.TAKEN_OVER:
+            self._persons_since = None
+            return False
+        if self._persons_since is None:
+            self._persons_since = tick
+        return (tick - self._persons_since) * self._mission.tick_s >= PERSONS_LIMIT_S

@@ -161,8 +161,5 @@ def agent_sides(
 
 
 def _count(endpoints: Iterable[Endpoint], *, beside: LinkCount = NOTHING_COUNTED) -> LinkCount:
-    sent, received, bad, dropped = beside.sent, beside.received, beside.bad, beside.dropped
-    for end in endpoints:
-        sent, received = sent + end.sent, received + end.received
-        bad, dropped = bad + end.bad, dropped + end.dropped
-    return LinkCount(sent, received, bad, dropped)
+    counts = (LinkCount(end.sent, end.received, end.bad, end.dropped) for end in endpoints)
+    return sum(counts, start=beside)

@@ -2,6 +2,9 @@
 
 A `Cue` begins tick k for one agent; its `Done` tells what came of it, with the vehicle as it is at k + 1. The `Done`
 before the first cue, of tick -1, says that an agent is there.
+
+Where agents are processes, both name a *life*: a number that a process draws when it starts. The world lets one life of
+an agent in, by its first `Done`, and heeds no other; a process heeds no cue but those for its own.
 """
 
 from __future__ import annotations
@@ -27,6 +30,7 @@ class Cue(msgspec.Struct, frozen=True, kw_only=True, array_like=True):
         frames: how many have been sent to its radio for this tick; None where nobody waits for them (real time).
         late_s: how late the tick began, on the wall clock.
         silent: whatever the agent would say by radio is not sent.
+        life: whom it is for. refused: why that one is not let in; the rest of the cue means nothing then.
     """
 
     tick: int
@@ -40,6 +44,8 @@ class Cue(msgspec.Struct, frozen=True, kw_only=True, array_like=True):
     frames: int | None = 0
     late_s: float = 0.0
     silent: bool = False
+    life: int = 0
+    refused: str = ""
 
 
 class LinkCount(msgspec.Struct, frozen=True, array_like=True):
@@ -50,6 +56,11 @@ class LinkCount(msgspec.Struct, frozen=True, array_like=True):
     bad: int = 0
     dropped: int = 0
 
+    def __add__(self, other: LinkCount) -> LinkCount:
+        return LinkCount(
+            self.sent + other.sent, self.received + other.received, self.bad + other.bad, self.dropped + other.dropped
+        )
+
 
 class RadioTally(msgspec.Struct, frozen=True, array_like=True):
     """An agent's radio so far: frames and bytes sent, frames heard and believed, frames refused."""
@@ -58,6 +69,11 @@ class RadioTally(msgspec.Struct, frozen=True, array_like=True):
     bytes: int = 0
     heard: int = 0
     refused: int = 0
+
+    def __add__(self, other: RadioTally) -> RadioTally:
+        return RadioTally(
+            self.sent + other.sent, self.bytes + other.bytes, self.heard + other.heard, self.refused + other.refused
+        )
 
 
 class Done(msgspec.Struct, frozen=True, kw_only=True, array_like=True):
@@ -71,6 +87,7 @@ class Done(msgspec.Struct, frozen=True, kw_only=True, array_like=True):
         radio: what went over its radio.
         leaves: it has landed, and is asked to end: nobody need wait for it any longer.
         fingerprint: in the first one, of the mission that it was given.
+        life: of the process that says it.
     """
 
     tick: int
@@ -85,3 +102,4 @@ class Done(msgspec.Struct, frozen=True, kw_only=True, array_like=True):
     radio: RadioTally = RadioTally()
     leaves: bool = False
     fingerprint: str = ""
+    life: int = 0
