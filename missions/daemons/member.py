@@ -18,6 +18,7 @@ from missions.sides.exchange import HELLO_TICK, Done, LinkCount, RadioTally
 # What a process said before it died may be under way for a lease.
 SURE_S = 1.5 * LEASE_S
 MOST_RIVALS = 4  # that are remembered
+MOST_LIVES = 8  # whose counts are told apart
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +28,9 @@ class _Counts:
     pilot: LinkCount
     vehicle: LinkCount
     radio: RadioTally
+
+    def __add__(self, other: _Counts) -> _Counts:
+        return _Counts(self.pilot + other.pilot, self.vehicle + other.vehicle, self.radio + other.radio)
 
 
 class Member:
@@ -49,7 +53,9 @@ class Member:
         self.lost_at_s: float | None = None
         self._spoke_at_s = 0.0
         self._newest = HELLO_TICK  # tick that it has told of
-        self._former: _Counts | None = None  # of lives before this one
+        self._own: _Counts | None = None
+        self._counts: dict[int, _Counts] = {}  # of lives before this one
+        self._former: _Counts | None = None  # all these together
         self._rivals: dict[int, float] = {}  # when they came, by life
 
     @property
@@ -73,10 +79,7 @@ class Member:
                 self._rivals[hello.life] = now_s
             return False
         if hello.life != self.life:
-            if self.done is not None:
-                self._former = _Counts(self.done.pilot, self.done.vehicle, self.done.radio)
-            self.life, self._newest = hello.life, HELLO_TICK
-            self._rivals.pop(hello.life, None)
+            self._begin(hello.life)
         self.is_there, self.is_new, self.lost_at_s = True, True, None
         self._take(hello, now_s)
         return True
@@ -118,14 +121,28 @@ class Member:
             self.news.clear()
         return structs.replace(done, status=status)
 
+    def _begin(self, life: int) -> None:
+        """Another life: what the last one counted stays counted."""
+        if self._own is not None:
+            self._counts[self.life] = self._own
+        while len(self._counts) > MOST_LIVES:
+            oldest, second = list(self._counts)[:2]
+            self._counts[second] += self._counts.pop(oldest)
+        self._rivals.pop(life, None)
+        self._counts.pop(life, None)  # it comes again, and has its counts with it
+        former = iter(self._counts.values())
+        first = next(former, None)
+        self._former = None if first is None else sum(former, start=first)
+        self.life, self._newest = life, HELLO_TICK
+
     def _take(self, done: Done, now_s: float) -> None:
         self.heard_at_s = self._spoke_at_s = now_s
-        self.done = structs.replace(done, status=structs.replace(done.status, events=()))
-        former = self._former
-        if former is not None:
-            self.done = structs.replace(
-                self.done,
-                pilot=former.pilot + done.pilot,
-                vehicle=former.vehicle + done.vehicle,
-                radio=former.radio + done.radio,
-            )
+        self._own = _Counts(done.pilot, done.vehicle, done.radio)
+        counts = self._own if self._former is None else self._former + self._own
+        self.done = structs.replace(
+            done,
+            status=structs.replace(done.status, events=()),
+            pilot=counts.pilot,
+            vehicle=counts.vehicle,
+            radio=counts.radio,
+        )
