@@ -17,14 +17,14 @@ from collections.abc import Iterator, Sequence
 from dataclasses import astuple, dataclass, fields
 from pathlib import Path
 from statistics import median
-from time import monotonic, sleep
+from time import monotonic, process_time, sleep
 
 from rich.console import Console
 from rich.table import Table
 
 from comms.session import Network, open_client
 from missions.daemons.fleet import FleetOptions, ask
-from missions.daemons.orders import Verb
+from missions.daemons.orders import Report, Verb
 from tests.missions.daemons.swarm import Swarm, children, free_endpoint, resident_mb, swarm
 
 TICK_S = 0.1  # of quickstart
@@ -36,7 +36,11 @@ TRICKLE_A = 0.001  # nobody comes home for its battery
 
 @dataclass(frozen=True, slots=True)
 class Sample:
-    """One process at one moment, and since the last sample: its processor time and the wall's, per tick."""
+    """One process at one moment, and since the last sample: its processor time and the wall's, per tick.
+
+    What may explain the time comes with it: how long this computer takes for REFERENCE rounds of nothing, as its clock
+    and its other guests change that, and what there is to do, targets followed and mates heard by all agents together.
+    """
 
     at_s: float
     process: str
@@ -45,6 +49,9 @@ class Sample:
     files: int
     busy_ms: float
     tick_ms: float
+    reference_ms: float
+    tags: int
+    mates: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +75,8 @@ BOUNDS = {
     "busy_ms": Bound(0.1, 0.25),
 }
 ONE_FILE_MB = 250.0
-PLOTTED = (*BOUNDS, "tick_ms")
+PLOTTED = (*BOUNDS, "tick_ms", "reference_ms", "tags", "mates")
+REFERENCE = 200_000
 
 
 def processes(run: Swarm) -> dict[int, str]:
@@ -97,11 +105,23 @@ def busy_s(pid: int) -> float:
     return (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")
 
 
-def ticks(bus: Network) -> float:
+def reports(bus: Network) -> list[Report]:
+    """How every agent is that answers."""
+    answers = ask(bus, Verb.STATUS, FleetOptions())
+    return [answer.report for answer in answers.values() if answer is not None and answer.report is not None]
+
+
+def ticks(swarm_now: Sequence[Report]) -> float:
     """How far the swarm is: ticks since power-on, of whoever is farthest."""
-    answers = ask(bus, Verb.STATUS, FleetOptions(uids=(0,)))
-    reports = [answer.report for answer in answers.values() if answer is not None and answer.report is not None]
-    return max((report.time_s for report in reports), default=0.0) / TICK_S
+    return max((report.time_s for report in swarm_now), default=0.0) / TICK_S
+
+
+def reference_ms() -> float:
+    """The processor time of always the same work."""
+    began_s = process_time()
+    for _ in range(REFERENCE):
+        pass
+    return 1e3 * (process_time() - began_s)
 
 
 def watch(run: Swarm, bus: Network, *, minutes: float, every_s: float) -> Iterator[list[Sample]]:
@@ -112,10 +132,12 @@ def watch(run: Swarm, bus: Network, *, minutes: float, every_s: float) -> Iterat
     """
     pids = processes(run)
     began_s = was_s = monotonic()
-    was_ticks, were_busy_s = ticks(bus), {pid: busy_s(pid) for pid in pids}
+    was_ticks, were_busy_s = ticks(reports(bus)), {pid: busy_s(pid) for pid in pids}
     while monotonic() - began_s < 60.0 * minutes:
         sleep(every_s)
-        now_s, now_ticks = monotonic(), ticks(bus)
+        now_s, agents = monotonic(), reports(bus)
+        now_ticks, speed_ms = ticks(agents), reference_ms()
+        tags, mates = sum(len(agent.tags) for agent in agents), sum(agent.mates for agent in agents)
         if processes(run) != pids:
             raise SystemExit(f"other processes than at first run now:\n{run.output}")
         per_tick = 1e3 / max(1.0, now_ticks - was_ticks)
@@ -129,6 +151,9 @@ def watch(run: Swarm, bus: Network, *, minutes: float, every_s: float) -> Iterat
                 files=files(pid),
                 busy_ms=(are_busy_s[pid] - were_busy_s[pid]) * per_tick,
                 tick_ms=(now_s - was_s) * per_tick,
+                reference_ms=speed_ms,
+                tags=tags,
+                mates=mates,
             )
             for pid, name in pids.items()
         ]
