@@ -4,7 +4,8 @@
     swarm/@v1/<mission>/rx/<uid>             air -> that agent alone: what got through, one bundle per tick
     swarm/@v1/<mission>/sight/<uid>          detector on board -> agent without a world: what is in sight
     swarm/@v1/<mission>/alive/<who>          liveliness token: of an agent (its uid), of the world, of the recorder
-    swarm/@v1/<mission>/alive/crew<n>        liveliness token of a world: so many agents belong to its mission
+    swarm/@v1/<mission>/alive/flight         liveliness token of a mission whose agents all fly in one process
+    swarm/@v1/<mission>/alive/crew<n>        liveliness token of a world or flight: so many agents belong to its mission
     swarm/@v1/<mission>/cmd/<uid>/<verb>     queryable of an agent: what people tell it, with a result
     swarm/@v1/<mission>/@sim/cue/<uid>       world -> that agent alone: a tick begins, and what its sensor sees
     swarm/@v1/<mission>/@sim/done/<uid>      agent -> world: the tick is done, and where its vehicle truly is
@@ -19,7 +20,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-WORLD, RECORDER = "world", "recorder"
+WORLD, RECORDER, FLIGHT = "world", "recorder", "flight"
 _ROOT = "swarm/@v1"
 _ALIVE = re.compile(rf"{_ROOT}/(?P<mission>[A-Za-z0-9][A-Za-z0-9_.-]{{0,63}})/alive/(?P<who>[a-z0-9]+)")
 _CREW = re.compile(r"crew(?P<size>[0-9]{1,5})")
@@ -60,7 +61,7 @@ class Keys:
         return f"{_ROOT}/{self.mission}/sight/{uid}"
 
     def alive(self, who: int | str) -> str:
-        """The token that says `who` is there: an agent's uid, WORLD or RECORDER."""
+        """The token that says `who` is there: an agent's uid, WORLD, RECORDER or FLIGHT."""
         return f"{_ROOT}/{self.mission}/alive/{who}"
 
     def crew(self, n_agents: int) -> str:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from types import MappingProxyType
+from typing import Protocol
 
 from comms.clock import Pace
 from comms.session import Bus
@@ -16,7 +17,7 @@ from comms.transport import Transport
 from missions import compose
 from missions.mission import Mission
 from missions.observation import Observer
-from missions.sides.agent import AgentSide, agent_sides
+from missions.sides.agent import agent_sides
 from missions.sides.exchange import Cue, Done
 from missions.sides.world import WorldSide, fly
 from swarm_agent.agent import Agent
@@ -62,20 +63,35 @@ class Flight:
         """Whether targets were watched for the mission's whole duration."""
         return self.side.complete
 
-    def run(self, *, pace: Pace, observers: Iterable[Observer], stop: Callable[[], bool]) -> None:
+    def run(
+        self,
+        *,
+        pace: Pace,
+        observers: Iterable[Observer],
+        stop: Callable[[], bool],
+        attended: Sequence[Member] | None = None,
+    ) -> None:
         """Fly until everybody has landed or is lost.
 
         Args:
             stop: asked every tick; once true, the swarm comes home.
+            attended: who is called for each side, by uid, where it is not the side itself.
         """
         self.side.meet([side.hello() for side in self.crew])
-        fly(self.side, _InProcess(self.crew), pace=pace, observers=observers, stop=stop)
+        crew = _InProcess(self.crew if attended is None else attended)
+        fly(self.side, crew, pace=pace, observers=observers, stop=stop)
+
+
+class Member(Protocol):
+    """Who does an agent's ticks."""
+
+    def tick(self, cue: Cue) -> Done: ...
 
 
 class _InProcess:
     """A crew that is called, one after the other."""
 
-    def __init__(self, sides: Sequence[AgentSide]) -> None:
+    def __init__(self, sides: Sequence[Member]) -> None:
         self._sides = sides
 
     def tick(self, cues: Sequence[Cue]) -> list[Done]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from datetime import UTC, datetime
 from math import acos, isinf
@@ -12,9 +12,12 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 
 from comms.clock import Lockstep, Pace, RealTime
-from comms.session import open_local_bus
+from comms.keys import Keys
+from comms.session import Network, open_local_bus
 from missions.checkout import commit
 from missions.compose import cos_half_opening
+from missions.daemons.attended import Attended
+from missions.daemons.desk import CrewDesk, MissionDesk, open_board
 from missions.ending import Ending
 from missions.exit_codes import DONE, FAILED, STOPPED
 from missions.faults.costs import Costs
@@ -54,6 +57,7 @@ def launch(mission: Mission, *, options: LaunchOptions) -> int:
     metrics = Metrics(costs=Costs(mission.faults, tick_s=mission.tick_s))
     ending = Ending(lambda text: console.print(f"Stopping: {text}.", markup=False))
     with (
+        open_board(options.board, Keys(mission.name), tell=_teller(console)) as board,
         open_local_bus() as bus,
         open_transports(mission, range(mission.agents.count)) as transports,
         ending.listening(),
@@ -61,7 +65,7 @@ def launch(mission: Mission, *, options: LaunchOptions) -> int:
         flight = Flight(mission, bus, transports)
         began_s = time.monotonic()
         try:
-            kept = _fly(flight, metrics, ending, console, options)
+            kept = _fly(flight, board, metrics, ending, console, options)
         except InputError:
             raise  # it has not begun
         except BaseException as error:
@@ -77,8 +81,14 @@ def launch(mission: Mission, *, options: LaunchOptions) -> int:
     return DONE if flight.complete and kept else FAILED
 
 
-def _fly(flight: Flight, metrics: Metrics, ending: Ending, console: Console, options: LaunchOptions) -> bool:
-    """Fly, with everybody watching who should. Returns whether all was kept that was to be kept."""
+def _teller(console: Console) -> Callable[[str], None]:
+    return lambda text: console.print(text, soft_wrap=True, markup=False, highlight=False)
+
+
+def _fly(
+    flight: Flight, board: Network | None, metrics: Metrics, ending: Ending, console: Console, options: LaunchOptions
+) -> bool:
+    """Fly, with everybody watching who should, and people heard on the board. Returns whether all was kept."""
     mission = flight.mission
     kept = True
     with ExitStack() as stack:
@@ -110,8 +120,14 @@ def _fly(flight: Flight, metrics: Metrics, ending: Ending, console: Console, opt
             metrics=metrics,
         )
         observers.append(stack.enter_context(progress))
+        attended, stop = None, lambda: ending.asked
+        if board is not None:
+            keys = Keys(mission.name)
+            attended = [Attended(side, tick_s=mission.tick_s) for side in flight.crew]
+            observers.append(CrewDesk(board, keys, attended))
+            stop = MissionDesk(board, keys, ending).is_closing
         try:
-            flight.run(pace=pace_of(mission, options.speed), observers=observers, stop=lambda: ending.asked)
+            flight.run(pace=pace_of(mission, options.speed), observers=observers, stop=stop, attended=attended)
         finally:
             kept = recorder is None or _closed(recorder, metrics, flight)
             kept = _logged(logs, metrics, flight) and kept

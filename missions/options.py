@@ -6,8 +6,23 @@ from dataclasses import dataclass
 from math import inf, isinf
 from pathlib import Path
 
+from comms.credentials import Credentials
 from missions.mission import Mission
 from missions.problems import InputError
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Board:
+    """Where people speak to a mission that flies in one process.
+
+    Attributes:
+        endpoint: where it listens, as zenoh writes it. is_required: without it the mission does not fly.
+        credentials: what proves who it is, to whom it knows alone; None: anybody may come in.
+    """
+
+    endpoint: str
+    is_required: bool = False
+    credentials: Credentials | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -20,6 +35,7 @@ class LaunchOptions:
         report: the JSON report to write, if any; `-` is standard output.
         tlog: the folder for a telemetry log of each link, if any.
         view: whether to open a viewer. web: whether to serve one to browsers on this machine.
+        board: where people speak to it, if they may.
         gcs: URLs of ports for ground stations, the whole swarm on each. gcs_key: what they sign with, if they must.
     """
 
@@ -29,6 +45,7 @@ class LaunchOptions:
     tlog: Path | None = None
     view: bool = False
     web: bool = False
+    board: Board | None = None
     gcs: tuple[str, ...] = ()
     gcs_key: bytes | None = None
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from missions.arguments import new_file, report
 from missions.commands.command import Command
 from missions.commands.which import add_mission, mission_of
+from missions.daemons import verbs
 from missions.daemons.arguments import add_processes, add_speed
 from missions.options import LaunchOptions, speed_of
 from missions.sim.options import link, signing_key
@@ -15,6 +16,7 @@ from missions.sim.options import link, signing_key
 _EXAMPLES = """examples:
   swarm launch quickstart --record out/q.rrd --report out/q.json
   swarm launch narrow --seed 7 --duration 60 --processes              a process for each agent
+  swarm launch quickstart --speed 1                                   in another terminal: swarm status, hold, land
   swarm launch quickstart --speed 1 --gcs udpout:127.0.0.1:14550      watched by a ground station
   swarm launch narrow --tlog out/logs; mavlogdump.py out/logs/agent-0.tlog
   swarm launch my.yaml --set radio.loss=0.3 --set 'targets={motion: static, count: 4}'"""
@@ -38,13 +40,13 @@ def _add_options(parser: argparse.ArgumentParser) -> None:
 def _launch(options: argparse.Namespace) -> int:
     mission = mission_of(options)
     if options.processes:
-        from missions.daemons import verbs
-
         return verbs.launch(mission, options)
     from missions.launch import launch as fly
 
+    speed = speed_of(mission, options.speed)
     settings = LaunchOptions(
-        speed=speed_of(mission, options.speed),
+        speed=speed,
+        board=verbs.board(options, speed=speed),
         record=options.record,
         tlog=options.tlog,
         report=options.report,

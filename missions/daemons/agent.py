@@ -26,7 +26,7 @@ from missions.daemons.airwaves import open_airwaves
 from missions.daemons.joining import new_life, open_world, unmet
 from missions.daemons.log import Log
 from missions.daemons.options import DaemonOptions, await_world_s, fingerprint
-from missions.daemons.orders import Answer, Verb, encode_answer
+from missions.daemons.orders import Verb, encode_answer
 from missions.daemons.questions import Questions
 from missions.daemons.seat import Seat
 from missions.daemons.security import silence
@@ -220,10 +220,7 @@ class _Daemon:
     def _answer(self) -> None:
         """What people have told us since the last tick."""
         for uid, question in self._questions.waiting():
-            seat = self._seats[uid]
-            obeyed, text = seat.orders.take(verb_of(question.key), seat.activity)
-            report = seat.watch.report(seat.last, time_s=self._log.time_s)
-            question.answer(encode_answer(Answer(obeyed=obeyed, text=text, report=report)))
+            question.answer(encode_answer(self._seats[uid].obey(verb_of(question.key))))
 
     def _await_frames(self, computer: Computer, cue: Cue) -> None:
         due, deadline_s, now_s = computer.due(cue), monotonic() + FRAMES_LATE_S, cue.tick * self._mission.tick_s

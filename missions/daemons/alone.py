@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from math import ceil
-from time import monotonic, sleep, time
+from time import sleep, time
 
 from msgspec import structs
 
@@ -22,9 +22,10 @@ from comms.sight import Eyes
 from comms.status import Activity
 from missions import compose
 from missions.daemons.airwaves import open_airwaves
+from missions.daemons.attended import Attended
 from missions.daemons.log import Log
 from missions.daemons.options import DaemonOptions
-from missions.daemons.orders import Answer, Orders, Verb, Watch, encode_answer
+from missions.daemons.orders import Answer, Orders, Verb, encode_answer
 from missions.daemons.questions import Questions
 from missions.ending import Ending
 from missions.exit_codes import DONE, FAILED, STOPPED
@@ -33,7 +34,7 @@ from missions.mission import Mission
 from missions.observation import Phase
 from missions.problems import InputError
 from missions.sides.agent import AgentSide, agent_sides
-from missions.sides.exchange import Cue, Done
+from missions.sides.exchange import Cue
 from missions.sides.phases import Phases
 from missions.targets import n_targets
 
@@ -65,7 +66,7 @@ def alone(mission: Mission, uids: Sequence[int], options: DaemonOptions) -> int:
                     return STOPPED if ending.interrupted else DONE
                 tick = ceil(time() / mission.tick_s)
                 sides = agent_sides(mission, radios, n_targets=count, transports=transports, started_tick=tick)
-                code = _fly(mission, sides, eyes, desk, tick, log=log)
+                code = _fly(mission, desk.seat(sides, tick_s=mission.tick_s), eyes, desk, tick, log=log)
                 return STOPPED if ending.interrupted else code
         except BusError as error:
             raise InputError(f"--alone: {error}") from error
@@ -75,7 +76,7 @@ def alone(mission: Mission, uids: Sequence[int], options: DaemonOptions) -> int:
 
 
 def _fly(
-    mission: Mission, sides: Sequence[AgentSide], eyes: Mapping[int, Eyes], desk: _Desk, first: int, *, log: Log
+    mission: Mission, crew: Sequence[Attended], eyes: Mapping[int, Eyes], desk: _Desk, first: int, *, log: Log
 ) -> int:
     """Tick from `first` on, counted in UTC, until everybody has landed; the exit code."""
     tick_s = mission.tick_s
@@ -83,7 +84,7 @@ def _fly(
     sleep(max(0.0, first * tick_s - time()))  # all computers begin their ticks at the same moments
     ahead = 0
     while phases.now is not Phase.DONE:
-        late_s, began_s = pace.begin(ahead), monotonic()
+        late_s = pace.begin(ahead)
         log.time_s = (first + ahead) * tick_s
         log.events(phases.announcement(ahead), who="mission")
         cue = Cue(
@@ -93,12 +94,8 @@ def _fly(
             frames=None,
             late_s=late_s,
         )
-        dones = [
-            side.tick(desk.amend(side.uid, structs.replace(cue, sightings=eyes[side.uid].see(log.time_s))))
-            for side in sides
-        ]
+        dones = [agent.tick(structs.replace(cue, sightings=eyes[agent.uid].see(log.time_s))) for agent in crew]
         for done in dones:
-            desk.see(done, time_s=log.time_s, late_s=late_s, busy_s=monotonic() - began_s)
             log.events(done.status.events, who=agents_name([done.status.uid]))
         desk.answer()
         ahead += 1
@@ -117,9 +114,7 @@ class _Desk:
         self.begun = False
         self._ending = ending
         self._orders = {uid: Orders() for uid in uids}
-        self._watches = {uid: Watch() for uid in uids}
-        self._last: dict[int, Done] = {}
-        self._time_s = 0.0
+        self._crew: dict[int, Attended] = {}
         self._questions: Questions[int] = Questions()
         for uid in uids:
             bus.declare_alive(keys.alive(uid))
@@ -142,28 +137,23 @@ class _Desk:
             sleep(LOOK_S)
         return not self.has_called_home
 
-    def amend(self, uid: int, cue: Cue) -> Cue:
-        """The cue as it is under the orders that stand."""
-        return self._orders[uid].amend(cue)
-
-    def see(self, done: Done, *, time_s: float, late_s: float, busy_s: float) -> None:
-        """An agent has done its tick."""
-        self._last[done.status.uid], self._time_s = done, time_s
-        self._watches[done.status.uid].see(done, time_s=time_s, late_s=late_s, busy_s=busy_s)
+    def seat(self, sides: Sequence[AgentSide], *, tick_s: float) -> Sequence[Attended]:
+        """The agents, switched on, under the orders that they have by now."""
+        self._crew = {side.uid: Attended(side, tick_s=tick_s, orders=self._orders[side.uid]) for side in sides}
+        return list(self._crew.values())
 
     def answer(self) -> None:
         """What people have asked and told since the last time."""
         for uid, question in self._questions.waiting():
-            obeyed, text = self._obey(uid, verb_of(question.key))
-            last = self._last.get(uid)
-            report = None if last is None else self._watches[uid].report(last, time_s=self._time_s)
-            question.answer(encode_answer(Answer(obeyed=obeyed, text=text, report=report)))
+            question.answer(encode_answer(self._obey(uid, verb_of(question.key))))
 
-    def _obey(self, uid: int, word: str) -> tuple[bool, str]:
-        if self.begun or word == Verb.STOP:
-            last = self._last.get(uid)
-            return self._orders[uid].take(word, Activity.PREPARING if last is None else last.status.activity)
+    def _obey(self, uid: int, word: str) -> Answer:
+        if uid in self._crew:
+            return self._crew[uid].obey(word)
+        if word == Verb.STOP:
+            obeyed, text = self._orders[uid].take(word, Activity.PREPARING)
+            return Answer(obeyed=obeyed, text=text)
         if word == Verb.RESUME:
             self.begun = True
-            return True, "begins"
-        return word == Verb.STATUS, WAITING
+            return Answer(obeyed=True, text="begins")
+        return Answer(obeyed=word == Verb.STATUS, text=WAITING)

@@ -62,8 +62,9 @@ def fleet_examples(verb: str) -> str:
   swarm {verb} quickstart --id 3
   swarm {verb} --connect tcp/10.0.0.5:7447 --keys keys
 
-Speaks to the processes of `swarm launch --processes`, or of `swarm world` and `swarm agent`. Every vehicle answers for
-itself, and is asked three times; the code is 1 if any refuses, or gives no answer."""
+Speaks to a `swarm launch` that has --speed, --listen or --processes, to `swarm world` and its agents, and to
+`swarm agent --alone`. Every vehicle answers for itself, and is asked three times; the code is 1 if any refuses, or
+gives no answer."""
 
 
 def world_options(parser: Parser) -> Parser:
@@ -104,7 +105,8 @@ def add_processes(parser: Parser) -> None:
     """Add what a launch in many processes has."""
     about = "many processes; N agents in one (1)"
     parser.add_argument("--processes", nargs="?", type=count, const=1, metavar="N", help=about)
-    parser.add_argument("--listen", default=ENDPOINT, metavar="ENDPOINT", help=f"where they meet ({ENDPOINT})")
+    about = f"where they meet, and where people speak to the mission ({ENDPOINT}; without --speed: nowhere)"
+    parser.add_argument("--listen", metavar="ENDPOINT", help=about)
     parser.add_argument("--restarts", type=whole, default=3, metavar="N", help="of an agent's process that fails (3)")
     _add_keys(parser)
     _add_insecure(parser)

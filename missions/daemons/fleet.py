@@ -17,7 +17,7 @@ from rich.table import Table
 from rich.text import Text
 
 from comms.credentials import Credentials
-from comms.keys import EVERYBODY_OF_ANY_MISSION, WORLD, Keys, crew_size, somebody
+from comms.keys import EVERYBODY_OF_ANY_MISSION, FLIGHT, WORLD, Keys, crew_size, somebody
 from comms.session import BusError, Network, open_client
 from comms.status import Activity
 from missions.colors import ACTIVITY_INKS, hex_color
@@ -27,6 +27,7 @@ from missions.daemons.security import silence, why
 from missions.exit_codes import DONE, FAILED
 from missions.mission.agents import MOST_AGENTS
 
+REACHED = "A launch is reached that has --speed, --listen or --processes, and `swarm world`, and `swarm agent --alone`."
 CONNECT_S = 3.0
 ANSWER_S = 2.0
 ATTEMPTS = 3
@@ -63,7 +64,7 @@ def tell(verb: Verb, options: FleetOptions) -> int:
                 return _watch(bus, options, console)
             answers = ask(bus, verb, options)
     except BusError as error:
-        hint = "does `swarm launch --processes` or `swarm world` run there?"
+        hint = f"does a mission run there? {REACHED}"
         sys.stderr.write(f"{why(error, options.credentials, otherwise=hint)}\n")
         return FAILED
     if not answers:
@@ -98,9 +99,9 @@ def _addressed(bus: Network, verb: Verb, options: FleetOptions) -> list[Who]:
     if options.uids is not None:
         missions = sorted({mission for mission, _ in named} | ({options.mission} if options.mission else set()))
         return [(mission, str(uid)) for mission in missions for uid in options.uids]
-    worlds = [(mission, who) for mission, who in named if who == WORLD]
-    if verb is Verb.STOP and worlds:
-        return worlds
+    whole = [(mission, WORLD) for mission, who in named if who in (WORLD, FLIGHT)]
+    if verb is Verb.STOP and whole:
+        return whole
     there_too = {(mission, int(who)) for mission, who in named if who.isdigit() and len(who) <= 9}
     crews = [(mission, size) for mission, who in named if (size := crew_size(who)) is not None]
     belong = {(mission, uid) for mission, size in crews for uid in range(min(size, MOST_AGENTS))}

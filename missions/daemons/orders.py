@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 
 import msgspec
 from msgspec import structs
 
-from comms.status import Activity
+from comms.status import Activity, Event, Level
 from missions.sides.exchange import Cue, Done
 
 MAX_ANSWER_BYTES = 4096
@@ -62,9 +62,33 @@ class Orders:
     come_home: bool = False
     land: bool = False
     leave: bool = False
+    _untold: list[Event] = field(default_factory=list)
 
     def take(self, word: str, activity: Activity) -> tuple[bool, str]:
         """Obey, if it can be done to a vehicle that does this now: whether it is, and why not."""
+        before = self._standing()
+        obeyed, text = self._take(word, activity)
+        if self._standing() != before:
+            self._untold.append(Event(Level.INFO, f"told to {word}: {text}"))
+        return obeyed, text
+
+    def amend(self, cue: Cue) -> Cue:
+        """The cue as it is under these orders."""
+        if not (self.hold or self.come_home):
+            return cue
+        return structs.replace(cue, hold=self.hold, come_home=cue.come_home or self.come_home, land=self.land)
+
+    def confirm(self, done: Done) -> Done:
+        """What came of that cue, with the orders that are new: so they stand in log and recording at their tick."""
+        if not self._untold:
+            return done
+        events, self._untold = (*self._untold, *done.status.events), []
+        return structs.replace(done, status=structs.replace(done.status, events=events))
+
+    def _standing(self) -> tuple[bool, ...]:
+        return self.hold, self.come_home, self.land, self.leave
+
+    def _take(self, word: str, activity: Activity) -> tuple[bool, str]:
         try:
             verb = Verb(word)
         except ValueError:
@@ -82,12 +106,6 @@ class Orders:
         self.come_home = True
         self.leave = self.leave or verb is Verb.STOP
         return True, "lands" if self.land else "comes home"
-
-    def amend(self, cue: Cue) -> Cue:
-        """The cue as it is under these orders."""
-        if not (self.hold or self.come_home):
-            return cue
-        return structs.replace(cue, hold=self.hold, come_home=cue.come_home or self.come_home, land=self.land)
 
 
 class Watch:

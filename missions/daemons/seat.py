@@ -10,8 +10,8 @@ from msgspec import structs
 
 from comms.session import Put
 from comms.status import Activity, Event, Level
+from missions.daemons.attended import Attended
 from missions.daemons.contact import Contact
-from missions.daemons.orders import Orders, Watch
 from missions.daemons.wire import encode
 from missions.exit_codes import DONE, FAILED
 from missions.mission import Mission
@@ -24,22 +24,19 @@ FORGOTTEN_S = 1.0  # wall clock: without a cue for so long, the world may have g
 LEFT_TO_PERSON = f"is to end, and a person has flown its vehicle for {PERSONS_LIMIT_S:g} s: it is left to them"
 
 
-class Seat:
-    """What a daemon keeps for agent `uid`.
+class Seat(Attended):
+    """What a daemon keeps for agent `uid`, beside what people told it.
 
     Args:
         put: where its dones go. life: of this process. period_s: wall seconds a tick; None: in lockstep.
 
     Attributes:
-        last: its last done. orders: what people told it. watch: what they are shown. contact: to the world.
-        met: the world has cued it. away: and does not any more. over: it has ended; code: with this exit code.
+        contact: to the world. met: the world has cued it. away: and does not any more. over: it has ended; code: with
+            this exit code.
     """
 
     def __init__(self, side: AgentSide, put: Put, mission: Mission, *, life: int, period_s: float | None) -> None:
-        self.side = side
-        self.last = side.hello()
-        self.orders = Orders()
-        self.watch = Watch()
+        super().__init__(side, tick_s=mission.tick_s)
         self.contact = Contact(period_s=period_s)
         self.met = False
         self.away = False
@@ -50,16 +47,6 @@ class Seat:
         self._put = put
         self._mission = mission
         self._untold: deque[Event] = deque(maxlen=MAX_UNTOLD)
-
-    @property
-    def uid(self) -> int:
-        """Its number."""
-        return self.side.uid
-
-    @property
-    def activity(self) -> Activity:
-        """What it does."""
-        return self.last.status.activity
 
     @property
     def is_aloft(self) -> bool:
@@ -135,13 +122,10 @@ class Seat:
         return self.alone_s >= self._mission.agents.world_timeout_s
 
     def do(self, cue: Cue) -> Done:
-        """One tick of its side, under the orders of people."""
-        began_s = monotonic()
-        done = self.side.tick(self.orders.amend(cue))
-        self.watch.see(done, time_s=cue.tick * self._mission.tick_s, late_s=cue.late_s, busy_s=monotonic() - began_s)
+        """One tick of its side, under the orders of people; with that it may be over."""
+        done = self.tick(cue)
         if self.orders.leave:
-            done = self._leaving(done, cue.tick)
-        self.last = done
+            done = self.last = self._leaving(done, cue.tick)
         return done
 
     def _leaving(self, done: Done, tick: int) -> Done:

@@ -10,13 +10,13 @@ from math import isinf
 from comms.credentials import OPERATOR, Credentials, agents_name, agents_named
 from comms.keys import RECORDER, WORLD
 from comms.status import Level
-from missions.daemons.options import DaemonOptions
+from missions.daemons.options import ENDPOINT, DaemonOptions
 from missions.daemons.processes import ProcessOptions, ProcessPlan, plan_processes
 from missions.daemons.radios import own_endpoint
 from missions.daemons.security import check_all_known, check_complete, check_listening, credentials_of, endpoint_of
 from missions.load import load_mission
 from missions.mission import Mission
-from missions.options import LaunchOptions, speed_of
+from missions.options import Board, LaunchOptions, speed_of
 from missions.outlet import outlet_console
 from missions.problems import InputError
 
@@ -100,7 +100,25 @@ def launch(mission: Mission, options: argparse.Namespace) -> int:
             raise InputError(f"{option}: not with --processes; allowed: --record, --view, --web")
     from missions.daemons.launcher import run_processes
 
-    return run_processes(processes(mission, options), endpoint=options.listen, console=outlet_console(stderr=True))
+    endpoint = options.listen or ENDPOINT
+    return run_processes(processes(mission, options), endpoint=endpoint, console=outlet_console(stderr=True))
+
+
+def board(options: argparse.Namespace, *, speed: float) -> Board | None:
+    """Where people speak to a mission in one process: where they were told, and while it goes by the clock, anyway.
+
+    Raises:
+        InputError: nobody may listen there, or prove who they are by what lies in the folder of keys.
+    """
+    if options.listen is None and isinf(speed):
+        return None
+    endpoint = options.listen or ENDPOINT
+    check_listening(endpoint, keys=options.keys, insecure=options.insecure)
+    return Board(
+        endpoint=endpoint_of(endpoint, keys=options.keys),
+        is_required=options.listen is not None,
+        credentials=credentials_of(options.keys, WORLD),
+    )
 
 
 def fleet(verb: str, options: argparse.Namespace) -> int:
@@ -136,11 +154,12 @@ def processes(mission: Mission, options: argparse.Namespace) -> tuple[ProcessPla
     given = vars(options)
     speed = given.get("speed")
     _speed(mission, speed)
-    check_listening(options.listen, keys=options.keys, insecure=options.insecure)
-    endpoint_of(options.listen, keys=options.keys)
+    endpoint = options.listen or ENDPOINT
+    check_listening(endpoint, keys=options.keys, insecure=options.insecure)
+    endpoint_of(endpoint, keys=options.keys)
     settings = ProcessOptions(
         mission_words=tuple(_mission_words(options)),
-        endpoint=options.listen,
+        endpoint=endpoint,
         speed=None if speed is None else "max" if isinf(speed) else f"{speed}",
         report=given.get("report"),
         record=given.get("record"),

@@ -12,11 +12,10 @@ from comms.access import Gate, Place
 from comms.keys import WORLD, Keys
 from comms.session import BusError, Network, open_router
 from missions.daemons.crew import CrewError, Patience, RemoteCrew
+from missions.daemons.desk import MissionDesk
 from missions.daemons.feed import Feed
 from missions.daemons.log import Log
 from missions.daemons.options import DaemonOptions, await_back_s, fingerprint
-from missions.daemons.orders import Answer, Verb, encode_answer
-from missions.daemons.questions import Questions
 from missions.ending import Ending
 from missions.exit_codes import DONE, FAILED, STOPPED
 from missions.faults.costs import Costs
@@ -98,7 +97,7 @@ def _run(
     console: Console,
 ) -> int:
     keys, metrics = Keys(mission.name), Metrics(costs=Costs(mission.faults, tick_s=mission.tick_s))
-    side, desk = WorldSide(mission, bus), _Desk(bus, keys, ending)
+    side, desk = WorldSide(mission, bus), MissionDesk(bus, keys, ending)
     ours = fingerprint(mission, daemon.speed)
     crew = RemoteCrew(
         bus,
@@ -164,22 +163,6 @@ def _patience(mission: Mission, daemon: DaemonOptions) -> Patience:
         back_s=await_back_s(mission, daemon),
         lockstep=lockstep,
     )
-
-
-class _Desk:
-    """Where people come to stop the mission."""
-
-    def __init__(self, bus: Network, keys: Keys, ending: Ending) -> None:
-        self._ending = ending
-        self._questions: Questions[str] = Questions()
-        self._questions.take_at(bus, keys.command(WORLD, Verb.STOP), WORLD)
-
-    def is_closing(self) -> bool:
-        """Whether anybody has asked for the end, in whatever way."""
-        for _, question in self._questions.waiting():
-            self._ending.ask()
-            question.answer(encode_answer(Answer(obeyed=True, text="everybody comes home")))
-        return self._ending.asked
 
 
 class _Teller:

@@ -12,10 +12,11 @@ from types import ModuleType
 import pytest
 
 from missions.cli import main
+from missions.daemons.options import ENDPOINT
 from missions.exit_codes import BAD_INPUT, DONE, FAILED, STOPPED
 from missions.load import load_mission
 from missions.mission import Mission
-from missions.options import LaunchOptions
+from missions.options import Board, LaunchOptions
 from missions.overrides import Override
 from missions.schema import mission_schema
 
@@ -125,7 +126,8 @@ def test_launch_passes_the_mission_and_its_options(monkeypatch: pytest.MonkeyPat
     options = ["--speed", "2.5", "--record", str(record), "--report", str(report), "--view"]
     assert main(["launch", "narrow", "--seed", "9", "--set", "agents.count=3", *options]) == DONE
     expected = load_mission("narrow", overrides=[Override("seed=9"), Override("agents.count=3")])
-    assert launches.asked == [(expected, LaunchOptions(speed=2.5, record=record, report=str(report), view=True))]
+    launched = LaunchOptions(speed=2.5, record=record, report=str(report), view=True, board=Board(endpoint=ENDPOINT))
+    assert launches.asked == [(expected, launched)]
 
 
 @pytest.mark.parametrize("speed", [[], ["--speed", "max"]])

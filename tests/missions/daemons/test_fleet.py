@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import json
 import subprocess
+from argparse import Namespace
 from contextlib import ExitStack
 from io import StringIO
+from math import inf
 from pathlib import Path
 from queue import SimpleQueue
 from threading import Thread
@@ -15,16 +17,30 @@ import pytest
 from rich.console import Console
 
 from comms.keys import WORLD, Keys
-from comms.session import Question, open_client, open_router
-from comms.status import Activity
+from comms.session import Network, Question, open_client, open_router
+from comms.status import Activity, AgentStatus, Event, Level
+from missions.cli import main
 from missions.colors import ACTIVITY_INKS, hex_color
+from missions.daemons import verbs
+from missions.daemons.desk import open_board
 from missions.daemons.fleet import ANSWER_S, ATTEMPTS, FleetOptions, ask, status_table
+from missions.daemons.options import ENDPOINT
 from missions.daemons.orders import Answer, Orders, Report, Verb, decode_answer, encode_answer
-from missions.sides.exchange import Cue
+from missions.observation import AgentTruth
+from missions.options import Board
+from missions.problems import InputError
+from missions.sides.exchange import Cue, Done
 from tests.missions.daemons.swarm import COMMAND, FOR_EVER_S, ROOT, SMALL, free_endpoint, swarm
 from tests.patience import PATIENCE_S, until
 
 CUE = Cue(tick=7, mission_tick=3)
+DONE = Done(
+    tick=7,
+    status=AgentStatus(uid=0, activity=Activity.FOLLOW),
+    truth=AgentTruth((0.0, 0.0, 5.0), (0.0, 0.0, 0.0), 0.0),
+    on_ground=False,
+)
+ON_DUTY = {Activity.EXPLORE, Activity.FOLLOW, Activity.CALLING, Activity.HELPING}
 
 
 @pytest.mark.parametrize(
@@ -75,12 +91,14 @@ def tell(*words: str) -> tuple[int, str]:
     return done.returncode, done.stdout + done.stderr
 
 
-def test_a_swarm_is_held_resumed_landed_and_stopped(tmp_path: Path) -> None:
+@pytest.mark.parametrize("how", [("--processes", "--log-level", "info"), ()], ids=["processes", "one process"])
+def test_a_swarm_is_held_resumed_landed_and_stopped(how: tuple[str, ...], tmp_path: Path) -> None:
     endpoint, file = free_endpoint(), tmp_path / "report.json"
-    launch = ("launch", "quickstart", *SMALL, "--speed", "5", "--duration", str(FOR_EVER_S), "--log-level", "info")
-    with swarm(*launch, "--report", str(file), "--processes", "--listen", endpoint) as run:
-        run.wait_for("the mission begins")
+    launch = ("launch", "quickstart", *SMALL, "--speed", "5", "--duration", str(FOR_EVER_S))
+    with swarm(*launch, "--report", str(file), *how, "--listen", endpoint) as run:
         at = ("quickstart", "--connect", endpoint)
+        with open_client(endpoint, lossless=True, patience_s=PATIENCE_S) as bus:
+            until(lambda: (now := activities(bus)) and ON_DUTY.issuperset(now))
         code, text = tell("status", "--connect", endpoint)
         assert code == 0, text
         assert text.count("GUIDED") == 3
@@ -90,7 +108,8 @@ def test_a_swarm_is_held_resumed_landed_and_stopped(tmp_path: Path) -> None:
         assert (code, text.count("goes on")) == (0, 1), text
         code, text = tell("land", *at, "--id", "0")
         assert (code, text.count("lands")) == (0, 1), text
-        run.wait_for('who=agent-0 text="landed and disarmed"')
+        with open_client(endpoint, lossless=True, patience_s=PATIENCE_S) as bus:
+            until(lambda: activities(bus, 0) == [Activity.LANDED])
         code, text = tell("hold", *at)
         assert code == 1  # two hold, one has landed
         assert (text.count("holds"), text.count("is landed")) == (2, 1), text
@@ -100,7 +119,67 @@ def test_a_swarm_is_held_resumed_landed_and_stopped(tmp_path: Path) -> None:
         code, text = tell("stop", *at)
         assert (code, text.count("everybody comes home")) == (0, 1), text
         assert run.wait() == 0, run.output
-    assert json.loads(file.read_text())["duration_s"] < FOR_EVER_S
+    report = json.loads(file.read_text())
+    assert report["duration_s"] < FOR_EVER_S
+    assert any("stopped after" in fault["what"] for fault in report["faults"])
+
+
+def activities(bus: Network, *uids: int) -> list[Activity | None]:
+    """What these agents do, or everybody; None of who has not said."""
+    answers = ask(bus, Verb.STATUS, FleetOptions(mission="quickstart", uids=uids or None))
+    reports = [None if answer is None else answer.report for answer in answers.values()]
+    return [None if report is None else report.activity for report in reports]
+
+
+def test_an_order_stands_in_the_status_of_the_tick_in_which_it_first_holds_and_once() -> None:
+    orders = Orders()
+    orders.take("status", Activity.FOLLOW)
+    assert orders.confirm(DONE) is DONE
+    orders.take("hold", Activity.FOLLOW)
+    orders.take("hold", Activity.FOLLOW)  # nothing new
+    told = [Event(Level.INFO, "told to hold: holds")]
+    assert list(orders.confirm(DONE).status.events) == told
+    assert orders.confirm(DONE) is DONE
+    orders.take("land", Activity.LANDED)  # is not obeyed
+    assert orders.confirm(DONE) is DONE
+
+
+def test_a_flight_that_cannot_listen_flies_unless_it_must_listen() -> None:
+    endpoint, keys, said = free_endpoint(), Keys("quickstart"), []
+    with open_board(None, keys, tell=said.append) as bus:
+        assert (bus, said) == (None, [])
+    with open_router(endpoint, lossless=False):
+        with open_board(Board(endpoint=endpoint), keys, tell=said.append) as bus:
+            assert bus is None
+        [line] = said
+        assert line.startswith(f"swarm status, hold, land ... do not reach this mission: cannot listen on {endpoint}")
+        with (
+            pytest.raises(InputError, match=f"--listen: cannot listen on {endpoint}"),
+            open_board(Board(endpoint=endpoint, is_required=True), keys, tell=said.append),
+        ):
+            pass
+    assert len(said) == 1
+
+
+@pytest.mark.parametrize(
+    ("listen", "speed", "at", "is_required"),
+    [
+        (None, inf, None, None),  # nobody can speak to what is over in a moment
+        (None, 1.0, ENDPOINT, False),
+        ("tcp/127.0.0.1:1", inf, "tcp/127.0.0.1:1", True),
+        ("tcp/127.0.0.1:1", 5.0, "tcp/127.0.0.1:1", True),
+    ],
+)
+def test_where_a_launch_is_spoken_to(
+    listen: str | None, speed: float, at: str | None, is_required: bool | None
+) -> None:
+    board = verbs.board(Namespace(listen=listen, keys=None, insecure=False), speed=speed)
+    assert (board and board.endpoint, board and board.is_required) == (at, is_required)
+
+
+def test_others_may_not_speak_to_a_launch_unasked(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["launch", "narrow", "--speed", "1", "--listen", "tcp/0.0.0.0:7447"]) == 2
+    assert "--listen: got tcp/0.0.0.0:7447, where other computers may come in" in capsys.readouterr().err
 
 
 def test_the_status_of_a_vehicle_is_a_line_of_eighty_letters_in_the_color_of_what_it_does() -> None:
@@ -170,7 +249,7 @@ def test_everybody_of_a_world_is_told_at_once_and_who_is_silent_or_gone_has_fail
 def test_where_nobody_is_nobody_is_told() -> None:
     code, text = tell(Verb.LAND, "--connect", free_endpoint())
     assert code == 1
-    assert "does `swarm launch --processes` or `swarm world` run there?" in text
+    assert "does a mission run there?" in text
     assert "Traceback" not in text
     code, text = tell(Verb.LAND, "quickstart", "--id", "10")
     assert (code, text) == (2, '--id: got "10"; allowed: a number from 0 to 9, or several, such as 0-9\n')
