@@ -21,14 +21,18 @@ _DATA = (2).to_bytes(8, "little")  # how nearly every message begins
 _MOST_LEFT_OUT = 20  # each takes some seconds of a long file
 
 
-def repair(source: Path, destination: Path) -> None:
-    """Write what can be read of `source` to `destination`.
+def repair(source: Path, destination: Path) -> int:
+    """Write what can be read of `source` to `destination`, and tell in how many places it is damaged.
+
+    That the last message is not whole is no damage: its writer was killed.
 
     Raises:
         RuntimeError: rerun's tool is missing, or nothing can be read; with what the tool said.
     """
     content = source.read_bytes()
-    header, messages = content[:_HEADER_BYTES], _of_known_stores(_messages(content))
+    found, damaged = _messages(content)
+    header, messages = content[:_HEADER_BYTES], _of_known_stores(found)
+    damaged += len(found) - len(messages)
     sound = destination.with_name(destination.name + ".sound")
 
     def write(some: Sequence[bytes]) -> None:
@@ -45,28 +49,32 @@ def repair(source: Path, destination: Path) -> None:
     try:
         for _ in range(_MOST_LEFT_OUT):
             if can_write(messages):
-                return
+                return damaged
             good, bad = 0, len(messages)  # the first so many can be written, and cannot
             while bad - good > 1:
                 middle = (good + bad) // 2
                 good, bad = (middle, bad) if can_write(messages[:middle]) else (good, middle)
             del messages[good:bad]
+            damaged += 1
         write(messages[:good])
+        return damaged
     finally:
         sound.unlink(missing_ok=True)
 
 
-def _messages(content: bytes) -> list[bytes]:
-    """All that are whole and followed by another one; what is between them is passed over."""
-    messages, start = [], _HEADER_BYTES
+def _messages(content: bytes) -> tuple[list[bytes], int]:
+    """All that are whole and followed by another one, and in how many places something else lies between them."""
+    messages, gaps = [], 0
+    start = expected = _HEADER_BYTES
     while 0 <= start < len(content):
         end = _end(content, start)
         if end is not None and end <= len(content) and (end == len(content) or _end(content, end) is not None):
             messages.append(content[start:end])
-            start = end
+            gaps += start != expected
+            start = expected = end
         else:
             start = content.find(_DATA, start + 1)
-    return messages
+    return messages, gaps
 
 
 def _of_known_stores(messages: Sequence[bytes]) -> list[bytes]:

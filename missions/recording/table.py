@@ -1,36 +1,47 @@
-"""The rows of a recording, as plain lists in the order of ticks."""
+"""The rows of one file of a recording, in the order of ticks, read as they are asked for."""
 
 from __future__ import annotations
 
-from bisect import bisect_right
-from collections.abc import Iterable, Mapping, Sequence
-from itertools import chain
-from typing import Any, TypeVar
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 import pyarrow as pa
-from pyarrow.compute import is_valid
+import pyarrow.compute as pc
 from rerun.chunk import RrdReader
 
-_ROW_ID = "rerun.controls.RowId"
+MISSION = "/__properties/mission"
+_ROW_ID, _TICK, _TIME = "rerun.controls.RowId", "tick", "mission_time"
+# So many rows are lists at a time; the others are as they lie in the file, which takes a fraction of the memory.
+_SLICE = 256
+_KEYS = {_TICK: pa.int64(), _TIME: pa.duration("ns"), _ROW_ID: pa.binary(16)}
+_POINT = pa.list_(pa.field("item", pa.float32(), nullable=False), 3)
 
-T = TypeVar("T")
-
-
-def held(at: Sequence[int], rows: Sequence[T], ticks: Iterable[int], before: T) -> list[T]:
-    """For every tick the latest of `rows`, which were recorded `at` ticks in rising order."""
-    latest = (bisect_right(at, tick) for tick in ticks)
-    return [rows[count - 1] if count else before for count in latest]
+Floats = npt.NDArray[np.float32]
+Row = tuple[int, tuple[list[Any], ...]]
 
 
 class Table:
-    """The rows of a recording by entity and component, in the order of ticks."""
+    """The rows of a file by entity and component.
 
-    def __init__(self, readers: Iterable[RrdReader], paths: Sequence[str]) -> None:
+    Attributes:
+        damaged: chunks and rows that were left out: they are not of the type they should be, or their tick is not of
+            their time.
+    """
+
+    def __init__(self, reader: RrdReader, paths: Sequence[str]) -> None:
         self._batches: dict[str, list[pa.RecordBatch]] = {}
-        for chunk in chain.from_iterable(reader.stream().filter(content=list(paths)).to_chunks() for reader in readers):
-            self._batches.setdefault(str(chunk.entity_path), []).append(pa.record_batch(chunk.to_record_batch()))
+        self.damaged = 0
+        for chunk in reader.stream().filter(content=list(paths)):
+            try:
+                batch = pa.record_batch(chunk.to_record_batch())
+                batch.validate(full=True)
+            except (pa.ArrowException, RuntimeError, ValueError, TypeError):
+                self.damaged += 1
+            else:
+                self._batches.setdefault(str(chunk.entity_path), []).append(batch)
+        self._tick_s = self.statics(MISSION).get("tick_s")
 
     def statics(self, path: str) -> Mapping[str, Any]:
         """The single values of an entity that hold at all times."""
@@ -41,22 +52,44 @@ class Table:
                     found[name] = values[0]
         return found
 
-    def rows(self, path: str, component: str) -> tuple[list[int], list[list[Any]]]:
-        """Ticks, and the list that was recorded at each of them; two empty lists when there is nothing."""
-        batches = [batch for batch in self._batches.get(path, ()) if {component, "tick"} <= {*batch.schema.names}]
-        if not batches:
-            return [], []
-        table = pa.Table.from_batches([batch.select(["tick", _ROW_ID, component]) for batch in batches])
-        table = table.sort_by([("tick", "ascending"), (_ROW_ID, "ascending")])
-        table = table.filter(is_valid(table.column(component)))
-        return table.column("tick").to_pylist(), table.column(component).to_pylist()
+    def rows(self, path: str, components: Mapping[str, pa.DataType]) -> Iterator[Row]:
+        """(tick, a list for each component) in the order of ticks."""
+        table = self._sorted(path, components)
+        for part in table.to_batches(max_chunksize=_SLICE):
+            columns = [part.column(name).to_pylist() for name in components]
+            yield from zip(part.column(_TICK).to_pylist(), zip(*columns, strict=True), strict=True)
 
-    def held(self, path: str, component: str, ticks: Sequence[int], before: list[Any]) -> list[list[Any]]:
-        """The latest list at each of `ticks`."""
-        return held(*self.rows(path, component), ticks, before)
+    def points(self, path: str, component: str) -> Iterator[tuple[int, Floats]]:
+        """(tick, (P, 3) points) in the order of ticks."""
+        for part in self._sorted(path, {component: _POINT}).to_batches():
+            lists = part.column(component)
+            points = lists.values.values.to_numpy().reshape(-1, 3)
+            ends = lists.offsets.to_numpy()
+            for row, tick in enumerate(part.column(_TICK).to_numpy().tolist()):
+                yield tick, points[ends[row] : ends[row + 1]]
 
-    def places(self, path: str, component: str, ticks: Sequence[int], count: int) -> npt.NDArray[np.float64]:
-        """(K, count, 3): the latest places at each of `ticks`."""
-        at, rows = self.rows(path, component)
-        latest = held(at, rows, ticks, [[0.0, 0.0, 0.0]] * count)
-        return np.array(latest, dtype=np.float64).reshape(len(ticks), count, 3)
+    def _sorted(self, path: str, components: Mapping[str, pa.DataType]) -> pa.Table:
+        schema = pa.schema(_KEYS | {name: pa.list_(kind) for name, kind in components.items()})
+        table = pa.Table.from_batches(list(self._selected(path, schema)), schema)
+        whole = pc.is_valid(table.column(_TICK))
+        for name in components:
+            whole = pc.and_(whole, pc.is_valid(table.column(name)))
+        table = table.filter(whole)
+        return table.sort_by([(_TICK, "ascending"), (_ROW_ID, "ascending")])
+
+    def _selected(self, path: str, schema: pa.Schema) -> Iterator[pa.RecordBatch]:
+        """The batches that have such columns, without rows that contradict themselves."""
+        for batch in self._batches.get(path, ()):
+            if not {*schema.names} <= {*batch.schema.names}:
+                continue
+            try:
+                selected = batch.select(schema.names).cast(schema)
+            except pa.ArrowException:
+                self.damaged += 1
+                continue
+            if self._tick_s is not None:
+                ticks, times_ns = (selected.column(name).cast(pa.int64()).to_numpy() for name in (_TICK, _TIME))
+                in_time = np.abs(ticks * self._tick_s - times_ns * 1e-9) < self._tick_s / 2
+                self.damaged += len(in_time) - int(np.count_nonzero(in_time))
+                selected = selected.filter(pa.array(in_time))
+            yield selected

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 
@@ -47,24 +47,21 @@ class Call:
         return self.ended_s - self.began_s
 
 
-def calls_of(observations: Sequence[Observation]) -> list[Call]:
-    """Every call of the mission, in the order of their beginnings; as many as the report counts."""
-    watch = _Watch()
-    for seen in observations:
-        if seen.mission_tick is not None:
-            watch.observe(seen)
-    return watch.calls
+class Calls:
+    """An observer of help calls. One that pauses for CALL_PAUSE_S is over.
 
-
-class _Watch:
-    """Open calls by (caller, target). One that pauses for CALL_PAUSE_S is over."""
+    Attributes:
+        all: every call of the mission, in the order of their beginnings; as many as the report counts.
+    """
 
     def __init__(self) -> None:
-        self.calls: list[Call] = []
-        self._open: dict[tuple[int, int], Call] = {}
+        self.all: list[Call] = []
+        self._open: dict[tuple[int, int], Call] = {}  # by (caller, target)
 
     def observe(self, seen: Observation) -> None:
         """End calls, renew them, begin them, and note who sets out."""
+        if seen.mission_tick is None:
+            return
         for key, call in list(self._open.items()):
             if seen.time_s - call.ended_s > CALL_PAUSE_S:
                 call.fate, call.owner = _fate(call, seen.statuses)
@@ -80,11 +77,18 @@ class _Watch:
                 if status.helping == target and status.uid not in (caller, *call.helpers):
                     call.helpers.append(status.uid)
 
+    def out(self, target: int, callers: Collection[int]) -> Call | None:
+        """The first of the calls for the target, by one of these, that are out or pause."""
+        return next(
+            (call for call in self._open.values() if call.target == target and call.caller in callers),
+            None,
+        )
+
     def _of(self, caller: int, told: HelpCallStatus, time_s: float) -> Call:
         key = caller, told.target
         if key not in self._open:
             self._open[key] = Call(caller, told.target, time_s, time_s, told.urgent, told.loss_in_s)
-            self.calls.append(self._open[key])
+            self.all.append(self._open[key])
         return self._open[key]
 
 

@@ -19,7 +19,7 @@ from missions.review.lines import print_line
 from missions.review.moment import print_moment
 from missions.review.options import ReviewOptions
 from missions.review.page import page_of
-from missions.review.reading import Review, read
+from missions.review.reading import Review, When, read
 from missions.review.showing import show
 from missions.review.summary import print_summary
 
@@ -37,7 +37,8 @@ def review(options: ReviewOptions) -> int:
     looked_at = sys.stderr if options.json else sys.stdout
     width = None if looked_at.isatty() else _WIDE
     console = Console(highlight=False, emoji=False, markup=False, width=width, stderr=options.json)
-    reviews = [read(path) for path in options.recordings]
+    moment = None if options.at_s is None or options.agent is None else When(options.at_s, options.agent)
+    reviews = [read(path, moment=moment) for path in options.recordings]
     verdicts = [(one, judge(text, countable(one.report))) for one in reviews for text in options.checks]
     if len(reviews) > 1:
         _compare(reviews[0], reviews[1], options, console)
@@ -64,8 +65,8 @@ def _tell(one: Review, options: ReviewOptions, console: Console) -> None:
         sys.stdout.write(as_json(one.report))
     if options.events:
         _print_events(one, console, everything=options.events == "all")
-    if options.at_s is not None and options.agent is not None:
-        print_moment(one, time_s=options.at_s, uid=options.agent, console=console)
+    if one.moment is not None:
+        print_moment(one, one.moment, console)
     if options.plot is not None:
         write_picture(over_time(one), options.plot)
         _written(options.plot, console)

@@ -12,7 +12,6 @@ from rich.text import Text
 
 from comms.status import Activity
 from missions.colors import ACTIVITY_INKS, hex_color
-from missions.observation import Observation
 from missions.review.checks import numbers_of
 from missions.review.reading import Review
 from missions.review.words import clock, percent
@@ -66,16 +65,19 @@ def number_differences(first: Review, second: Review) -> list[Difference]:
 
 def parting_s(first: Review, second: Review) -> float | None:
     """Mission clock of the first tick in which an agent does, follows or helps otherwise; None: never."""
-    return next((seen.time_s for seen, other in _pairs(first, second) if _deeds(seen) != _deeds(other)), None)
+    deeds = (review.series.deeds for review in (first, second))
+    return next((time_s for time_s, deed, other in _pairs(first, second, *deeds) if deed != other), None)
 
 
-def _pairs(first: Review, second: Review) -> Iterator[tuple[Observation, Observation]]:
-    """The ticks that both have, by the mission clock."""
-    by_time = {round(seen.time_s, 6): seen for seen in second.playback.observations}
-    for seen in first.playback.observations:
-        other = by_time.get(round(seen.time_s, 6))
+def _pairs(
+    first: Review, second: Review, prints: Sequence[int], others: Sequence[int]
+) -> Iterator[tuple[float, int, int]]:
+    """Time and prints of the ticks that both have, by the mission clock."""
+    by_time = {round(time_s, 6): other for time_s, other in zip(second.series.time_s, others, strict=True)}
+    for time_s, mine in zip(first.series.time_s, prints, strict=True):
+        other = by_time.get(round(time_s, 6))
         if other is not None:
-            yield seen, other
+            yield time_s, mine, other
 
 
 def _opening(first: Review, second: Review) -> str:
@@ -83,10 +85,10 @@ def _opening(first: Review, second: Review) -> str:
     parted_s = parting_s(first, second)
     if parted_s is not None:
         return f"The two missions part at {clock(parted_s)}."
-    lengths = {len(review.playback.observations) for review in (first, second)}
-    if len(lengths) > 1:
+    if len(first.series.time_s) != len(second.series.time_s):
         return "The two missions are the same as far as both are recorded."
-    if all(seen.targets == other.targets and _places(seen) == _places(other) for seen, other in _pairs(first, second)):
+    places = (review.series.places for review in (first, second))
+    if all(mine == other for _, mine, other in _pairs(first, second, *places)):
         return "The two missions are the same, tick by tick."
     return "Everybody does the same in both missions, at other places."
 
@@ -158,11 +160,3 @@ def _said(settings: Mapping[str, Any], key: str) -> str:
     if isinstance(value, list) and value and all(isinstance(part, Mapping) and "kind" in part for part in value):
         return f"{len(value)}: {', '.join(str(part['kind']) for part in value)}"
     return str(value)
-
-
-def _deeds(seen: Observation) -> list[tuple[Any, ...]]:
-    return [(status.activity, status.tags, status.helping) for status in seen.statuses]
-
-
-def _places(seen: Observation) -> list[tuple[float, float, float]]:
-    return [truth.position_m for truth in seen.truths]

@@ -8,9 +8,8 @@ from dataclasses import dataclass
 from math import hypot, inf
 
 from comms.status import OFF_DUTY, Activity
-from missions.metrics import CALL_PAUSE_S
 from missions.observation import Observation
-from missions.review.calls import Call
+from missions.review.calls import Call, Calls
 
 # Nobody foresees more: eq. 10 looks as far ahead (section 4.2).
 FORESIGHT_S = 20.0
@@ -39,6 +38,7 @@ class Loss:
     Attributes:
         time_s: mission clock of the first tick without an owner. owners: who had it until then.
         owners_gone: none of them is on duty any more. left: the target has left the world: nobody could have kept it.
+        place_m: where it was, east and north.
         call: the call that was out for it, if any. helpers: who was on the way.
         chances: who could have prevented it; the one that could have left last comes first.
         found_after_s: until somebody had it again; None: never.
@@ -49,59 +49,72 @@ class Loss:
     owners: tuple[int, ...]
     owners_gone: bool
     left: bool
+    place_m: tuple[float, float]
     call: Call | None
     helpers: tuple[int, ...]
     chances: tuple[Chance, ...]
     found_after_s: float | None = None
 
 
-def losses_of(
-    observations: Sequence[Observation], calls: Sequence[Call], *, speed_m_s: float, sensing_range_m: float
-) -> list[Loss]:
-    """Every loss of the mission, in order; as many as the report counts."""
-    losses: list[Loss] = []
-    at_large: dict[int, Loss] = {}
-    lately: deque[Observation] = deque()
-    before: Mapping[int, tuple[int, ...]] = {}
-    for seen in observations:
+class Losses:
+    """An observer of losses.
+
+    Args:
+        calls: has observed the same tick when this one observes it. speed_m_s, sensing_range_m: of any agent.
+
+    Attributes:
+        all: every loss of the mission, in order; as many as the report counts.
+    """
+
+    def __init__(self, calls: Calls, *, speed_m_s: float, sensing_range_m: float) -> None:
+        self.all: list[Loss] = []
+        self._calls, self._speed_m_s, self._sensing_range_m = calls, speed_m_s, sensing_range_m
+        self._at_large: dict[int, Loss] = {}
+        self._lately: deque[Observation] = deque()
+        self._owners: Mapping[int, tuple[int, ...]] = {}
+
+    def observe(self, seen: Observation) -> None:
+        """Note which targets nobody has any more, and which somebody has again."""
         if seen.mission_tick is None:
-            before = {}
-            continue
-        lately.append(seen)
-        while seen.time_s - lately[0].time_s > FORESIGHT_S:
-            lately.popleft()
-        owners = _owners(seen)
-        for target in at_large.keys() & owners.keys():
-            loss = at_large.pop(target)
+            self._owners = {}
+            return
+        self._lately.append(seen)
+        while seen.time_s - self._lately[0].time_s > FORESIGHT_S:
+            self._lately.popleft()
+        before, self._owners = self._owners, _owners(seen)
+        for target in self._at_large.keys() & self._owners.keys():
+            loss = self._at_large.pop(target)
             loss.found_after_s = seen.time_s - loss.time_s
-        for target in sorted(before.keys() - owners.keys()):
-            call = _call_out(calls, target, before[target], seen.time_s)
-            chances = _chances(
-                lately, target, before[target], call, speed_m_s=speed_m_s, sensing_range_m=sensing_range_m
-            )
-            helpers = tuple(
-                status.uid for status in seen.statuses if status.helping == target and status.uid not in before[target]
-            )
-            gone = all(seen.statuses[uid].activity in OFF_DUTY for uid in before[target])
-            left = not seen.targets[target].present
-            at_large[target] = Loss(seen.time_s, target, before[target], gone, left, call, helpers, chances)
-            losses.append(at_large[target])
-        before = owners
-    return losses
+        for target in sorted(before.keys() - self._owners.keys()):
+            self._at_large[target] = self._lost(seen, target, before[target])
+            self.all.append(self._at_large[target])
+
+    def _lost(self, seen: Observation, target: int, owners: tuple[int, ...]) -> Loss:
+        call, place = self._calls.out(target, owners), seen.targets[target]
+        return Loss(
+            time_s=seen.time_s,
+            target=target,
+            owners=owners,
+            owners_gone=all(seen.statuses[uid].activity in OFF_DUTY for uid in owners),
+            left=not place.present,
+            place_m=(place.x_m, place.y_m),
+            call=call,
+            helpers=tuple(s.uid for s in seen.statuses if s.helping == target and s.uid not in owners),
+            chances=_chances(
+                self._lately,
+                target,
+                owners,
+                call,
+                speed_m_s=self._speed_m_s,
+                sensing_range_m=self._sensing_range_m,
+            ),
+        )
 
 
 def longest(losses: Sequence[Loss], count: int) -> list[Loss]:
     """The `count` losses that lasted longest, in order of time; those of targets that left come after all others."""
     found = sorted(losses, key=lambda loss: (loss.left, -(loss.found_after_s or inf)))[:count]
     return sorted(found, key=lambda loss: loss.time_s)
-
-
-def _call_out(calls: Sequence[Call], target: int, owners: tuple[int, ...], time_s: float) -> Call | None:
-    """The call that an owner had out for the target, up to a pause ago."""
-    for call in calls:
-        if call.target == target and call.caller in owners and call.began_s <= time_s <= call.ended_s + CALL_PAUSE_S:
-            return call
-    return None
 
 
 def _owners(seen: Observation) -> dict[int, tuple[int, ...]]:

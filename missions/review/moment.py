@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from collections.abc import Iterator
 from math import atan2, degrees, hypot
 
@@ -16,26 +15,26 @@ from missions.colors import ACTIVITY_INKS, hex_color
 from missions.observation import Observation
 from missions.problems import InputError
 from missions.review.lines import print_line
-from missions.review.reading import Review
+from missions.review.reading import Moment, Review
 from missions.review.words import agent, agents, clock, target
 
 # Lines so much earlier and later are shown.
 _ABOUT_S, _NOW_S = 10.0, 0.5
 
 
-def print_moment(review: Review, *, time_s: float, uid: int, console: Console) -> None:
+def print_moment(review: Review, moment: Moment, console: Console) -> None:
     """Print the moment.
 
     Raises:
         InputError: there is no such agent, or the recording does not reach so far.
     """
-    first, last = (review.playback.observations[end].time_s for end in (0, -1))
+    (time_s, uid), seen, _ = moment
+    first, last = review.series.time_s[0], review.ended_s
     if not 0 <= uid < review.playback.facts.agents:
         raise InputError(f"--agent: got {uid}; allowed: 0 to {review.playback.facts.agents - 1}")
     if not first <= time_s <= last + 1.0:
         raise InputError(f"--at: got {clock(time_s)}; allowed: {clock(first)} to {clock(last)}")
-    seen = review.at(time_s)
-    console.print(Group(_title(seen, uid), Text(), _facts(review, seen, uid), *_page(review, seen, uid)))
+    console.print(Group(_title(seen, uid), Text(), _facts(review, seen, uid), *_page(review, moment)))
     nearby = [line for line in review.lines if line.who == uid and abs(line.time_s - seen.time_s) <= _ABOUT_S]
     if nearby:
         console.print(Text("\nWhat happened about then", "bold"))
@@ -94,14 +93,12 @@ def _away(seen: Observation, uid: int, number: int) -> str:
     return f"{target(number)} ({_distance_m(seen, uid, number):.1f} m away)"
 
 
-def _page(review: Review, seen: Observation, uid: int) -> Iterator[RenderableType]:
+def _page(review: Review, moment: Moment) -> Iterator[RenderableType]:
     """What it told of its mind last, if it told anything."""
-    pages = review.playback.pages[uid]
-    count = bisect_right(pages, seen.tick, key=lambda page: page[0])
-    if count:
-        tick, text = pages[count - 1]
+    if moment.page is not None:
+        tick, text = moment.page
         told = clock(tick * review.playback.facts.tick_s)
-        lost = seen.statuses[uid].activity is Activity.LOST
+        lost = moment.seen.statuses[moment.when.agent].activity is Activity.LOST
         yield Text(f"\n{'What it last knew' if lost else 'What it knew'} and wanted, told at {told}", "bold")
         yield from _told(text.partition("\n")[2])  # its title says what ours says
 

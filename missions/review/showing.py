@@ -20,7 +20,7 @@ def show(recordings: Sequence[Path], console: Console, *, window: bool) -> None:
         InputError: there is no screen for a window.
     """
     with ExitStack() as stack:
-        files = [str(file) for path in recordings for file in stack.enter_context(whole(path))[0]]
+        files = [str(file) for path in recordings for file in stack.enter_context(whole(path)).files]
         try:
             if window:
                 _show_window(files)

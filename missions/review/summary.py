@@ -16,7 +16,7 @@ from missions.review.calls import Fate
 from missions.review.highlights import LONG_S, Highlight, highlights, told
 from missions.review.losses import longest
 from missions.review.reading import Review
-from missions.review.series import Bucket, buckets
+from missions.review.series import Bucket
 from missions.review.timeline import found_words, loss_words
 from missions.review.words import agent, clock, percent
 
@@ -82,7 +82,7 @@ def _facts(review: Review) -> Table:
             f"   last quarter {percent(report['coverage_late'])}   floor {percent(report['coverage_floor'])}",
         ),
     )
-    slices = buckets(review, _COLUMNS)
+    slices = review.series.buckets(_COLUMNS)
     if slices:
         table.add_row("over time", _spark(slices))
         table.add_row("doing", _lane(slices))

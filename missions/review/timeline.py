@@ -7,13 +7,13 @@ call ended, which target everybody lost, and who could have prevented it.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
 
-from comms.status import OFF_DUTY, Activity, Level
+from comms.status import OFF_DUTY, Activity, AgentStatus, Level
 from missions.observation import Observation
 from missions.review.calls import Call
+from missions.review.lanes import Lanes
 from missions.review.losses import Chance, Loss
 from missions.review.words import agent, agents, clock, target
 
@@ -53,15 +53,40 @@ class Line:
         return f"{clock(self.time_s):>8}  {who:<7}  {doing:<{_DOING}}  {self.text}"
 
 
-def timeline_of(observations: Sequence[Observation], calls: Sequence[Call], losses: Sequence[Loss]) -> list[Line]:
-    """What happened, in order of time."""
-    lines = list(_echoes_aside(line for seen in observations for line in _said(seen)))
-    for before, now in pairwise(observations):
-        lines += _starts(before, now)
-    by_time = {seen.time_s: seen for seen in observations}
-    lines += [_line(by_time[call.ended_s], call.caller, Level.INFO, call_words(call)) for call in calls]
-    lines += [_line(by_time[loss.time_s], loss.owners[0], Level.WARNING, loss_words(loss)) for loss in losses]
-    return sorted(lines, key=lambda line: line.time_s)
+class Timeline:
+    """An observer of what is said, and of what is not said but done."""
+
+    def __init__(self) -> None:
+        self._said: list[Line] = []
+        self._done: list[Line] = []
+        self._last: dict[tuple[int | None, str], tuple[str, float]] = {}
+        self._statuses: Sequence[AgentStatus] = ()
+
+    def observe(self, seen: Observation) -> None:
+        """Note one tick."""
+        if seen.statuses is not self._statuses or seen.events:
+            self._said += map(self._echo_aside, _said(seen))
+            self._done += _starts(self._statuses or seen.statuses, seen)
+        self._statuses = seen.statuses
+
+    def lines(self, calls: Iterable[Call], losses: Iterable[Loss], lanes: Lanes) -> list[Line]:
+        """What happened, in order of time."""
+        ends = [_line(call.ended_s, call.caller, Level.INFO, call_words(call), lanes) for call in calls]
+        lost = [_line(loss.time_s, loss.owners[0], Level.WARNING, loss_words(loss), lanes) for loss in losses]
+        return sorted([*self._said, *self._done, *ends, *lost], key=lambda line: line.time_s)
+
+    def _echo_aside(self, line: Line) -> Line:
+        """The line, routine if its speaker repeats the last it said of a target; an error is never routine."""
+        about = _ABOUT.match(line.text)
+        if about is None or line.level is Level.ERROR:
+            return line
+        words = about[0]
+        key = line.who, words.rpartition("T")[2]
+        before, at_s = self._last.get(key, ("", 0.0))
+        if before == words and line.time_s - at_s < _TOLD_AGAIN_S:
+            return replace(line, routine=True)
+        self._last[key] = words, line.time_s
+        return line
 
 
 def call_words(call: Call) -> str:
@@ -114,31 +139,13 @@ def _said(seen: Observation) -> Iterator[Line]:
             yield Line(seen.time_s, status.uid, status.activity, event.level, event.text, routine)
 
 
-def _echoes_aside(lines: Iterator[Line]) -> Iterator[Line]:
-    """The lines, those routine in which a speaker repeats the last it said of a target; an error is never routine."""
-    last: dict[tuple[int | None, str], tuple[str, float]] = {}
-    for line in lines:
-        about = _ABOUT.match(line.text)
-        if about is None or line.level is Level.ERROR:
-            yield line
-            continue
-        words = about[0]
-        key = line.who, words.rpartition("T")[2]
-        before, at_s = last.get(key, ("", 0.0))
-        if before == words and line.time_s - at_s < _TOLD_AGAIN_S:
-            yield replace(line, routine=True)
-        else:
-            last[key] = words, line.time_s
-            yield line
-
-
-def _starts(before: Observation, now: Observation) -> Iterator[Line]:
+def _starts(before: Sequence[AgentStatus], now: Observation) -> Iterator[Line]:
     """Changes of activity that the speaker itself says nothing about."""
-    for old, new in zip(before.statuses, now.statuses, strict=True):
+    for old, new in zip(before, now.statuses, strict=True):
         if new.activity is not old.activity and new.activity in _STARTS and not new.events:
             level = Level.WARNING if new.activity is Activity.LOST else Level.INFO
-            yield _line(now, new.uid, level, _STARTS[new.activity])
+            yield Line(now.time_s, new.uid, new.activity, level, _STARTS[new.activity])
 
 
-def _line(seen: Observation, uid: int, level: Level, text: str) -> Line:
-    return Line(seen.time_s, uid, seen.statuses[uid].activity, level, text)
+def _line(time_s: float, uid: int, level: Level, text: str, lanes: Lanes) -> Line:
+    return Line(time_s, uid, lanes.at(uid, time_s), level, text)

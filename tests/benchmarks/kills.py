@@ -26,7 +26,7 @@ from rich.console import Console
 from rich.table import Table
 
 from missions.metrics import Metrics
-from missions.recording.playback import Playback, play_back
+from missions.recording.playback import play_back
 from tests.missions.daemons.swarm import Swarm, children, free_endpoint, kill, swarm, wait_until_gone
 
 DURATION_S, AT_S, WINDOW_S, TICK_S = 120.0, 40.0, 30.0, 0.1
@@ -133,22 +133,23 @@ def happen(case: Case, folder: Path) -> Outcome:
 def _recorded(recording: Path, *, at_s: float, struck_s: float) -> dict[str, Any]:
     """What the recording still tells: coverage around `at_s` of MISSION, and what is lost, `struck_s` on the clock."""
     whole = recording.is_file()
-    playback = play_back(recording if whole else recording.with_name(recording.name + ".part"))
-    metrics = Metrics()
-    for observation in playback.observations:
-        metrics.observe(observation)
+    metrics, last_s = Metrics(), 0.0
+    with play_back(recording if whole else recording.with_name(recording.name + ".part")) as playback:
+        for observation in playback.observations():
+            metrics.observe(observation)
+            last_s = observation.time_s
     edges = [round((at_s + window * WINDOW_S) / TICK_S) for window in (-1, 0, 1, 2)]
     return {
         "coverage": tuple(metrics.coverage.between(*edge) for edge in pairwise(edges)),
-        "recorded": _lost(playback, whole=whole, struck_s=struck_s),
+        "recorded": _lost(playback.ticks_missing, whole=whole, after_s=struck_s - last_s),
     }
 
 
-def _lost(playback: Playback, *, whole: bool, struck_s: float) -> str:
-    missing = f"{playback.ticks_missing} ticks missing" if playback.ticks_missing else "nothing"
+def _lost(ticks: int, *, whole: bool, after_s: float) -> str:
+    missing = f"{ticks} ticks missing" if ticks else "nothing"
     if whole:
         return missing
-    return f"repaired; the last {struck_s - playback.observations[-1].time_s:.1f} s before it, and all after"
+    return f"repaired; the last {after_s:.1f} s before it, and all after"
 
 
 def _clock_of(text: str, said: Sequence[str]) -> float:

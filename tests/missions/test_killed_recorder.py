@@ -49,8 +49,9 @@ def test_killed_at_any_moment_it_leaves_a_readable_file(tmp_path: Path, moment: 
                 child.kill()
                 break
     assert child.returncode == -signal.SIGKILL
-    with whole(path.with_name("killed.rrd.part")) as ((repaired,), torn):
-        assert torn
+    with whole(path.with_name("killed.rrd.part")) as found:
+        assert found.unfinished
+        (repaired,) = found.files
         ticks = _ticks(repaired)
     assert ticks == list(range(len(ticks)))
     assert last_tick - ticks[-1] <= SECOND_TICKS + QUEUED_TICKS

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from comms.arena import Shape
 from comms.status import Activity
 from missions.colors import ACTIVITY_INKS, hex_color
-from missions.review.figures.over_time import colored_runs, thinned
+from missions.review.figures.over_time import colored_runs
 from missions.review.reading import Review
 from missions.review.words import agent
 from missions.study.style import DIM, GRID, INK, STYLE
@@ -37,8 +37,7 @@ def from_above(review: Review) -> Figure:
         _paths(axes, review)
         for loss in review.losses:
             if not loss.left and (loss.found_after_s or inf) > _MARKED_S:
-                place = review.at(loss.time_s).targets[loss.target]
-                axes.plot(place.x_m, place.y_m, "x", color=_BAD, markersize=7, markeredgewidth=2, zorder=4)
+                axes.plot(*loss.place_m, "x", color=_BAD, markersize=7, markeredgewidth=2, zorder=4)
         axes.set_title("Agents ●, targets ■, losses ×")
         axes.set_xlabel("east, m")
         axes.set_ylabel("north, m")
@@ -57,16 +56,16 @@ def _edge(axes: Axes, review: Review) -> None:
 
 
 def _paths(axes: Axes, review: Review) -> None:
-    flown = thinned([seen for seen in review.playback.observations if seen.mission_tick is not None])
+    flown = review.snapshots_flown
     if not flown:
         return
     for number in range(review.playback.facts.targets):
-        trail = np.array([(t.x_m, t.y_m) if (t := seen.targets[number]).present else (np.nan,) * 2 for seen in flown])
+        trail = np.array([seen.targets_m[number] for seen in flown])
         axes.plot(*trail.T, color=DIM, linewidth=0.7, zorder=2)
         axes.plot(*trail[-1], "s", color=INK, markersize=3, zorder=6)
     for uid in range(review.playback.facts.agents):
-        places = np.array([seen.truths[uid].position_m[:2] for seen in flown])
-        colors = [hex_color(ACTIVITY_INKS[seen.statuses[uid].activity]) for seen in flown[1:]]
+        places = np.array([seen.agents_m[uid] for seen in flown])
+        colors = [hex_color(ACTIVITY_INKS[seen.activities[uid]]) for seen in flown[1:]]
         for run, color in colored_runs(places, colors):
             axes.plot(*run.T, color=color, linewidth=1.5, zorder=3)
         axes.plot(*places[-1], "o", color=colors[-1] if colors else INK, markersize=7, zorder=5)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import groupby, pairwise
+from itertools import groupby
+from operator import itemgetter
 
 import matplotlib as mpl
 import numpy as np
@@ -16,7 +17,7 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from comms.status import Activity
 from missions.colors import ACTIVITY_COLORS, ACTIVITY_INKS, hex_color
-from missions.observation import Observation
+from missions.review.figures.snapshots import POINTS, Snapshot
 from missions.review.reading import Review
 from missions.review.words import agent, clock, percent
 from missions.study.style import DIM, INK, STYLE, percent_axis
@@ -26,7 +27,6 @@ _MOST_LANES_IN = 4.2
 _FAULT_IN = 0.16
 _HALF_LANE = 0.43
 _LETTER = 0.0085  # of the width of the picture
-_POINTS = 600  # along time: finer than a screen
 _GREEN = hex_color(ACTIVITY_COLORS[Activity.FOLLOW])
 _GOOD, _BAD = hex_color(ACTIVITY_INKS[Activity.FOLLOW]), hex_color(ACTIVITY_INKS[Activity.LOST])
 
@@ -35,9 +35,9 @@ Floats = npt.NDArray[np.float64]
 
 def over_time(review: Review, *, titled: bool = True) -> Figure:
     """Faults on purpose, coverage, lanes of activities, and distances, one below the other."""
-    seen = thinned(review.playback.observations)
+    shown_s = review.series.time_s[0], review.ended_s
     lanes_in = min(_MOST_LANES_IN, 0.5 + _LANE_IN * review.playback.facts.agents)
-    faults = list(_stacked(review, (seen[0].time_s, seen[-1].time_s)))
+    faults = list(_stacked(review, shown_s))
     faults_in = 0.1 + _FAULT_IN * (1 + max((row for *_, row in faults), default=-1))
     heights = [faults_in, _COVERAGE_IN, lanes_in, _DISTANCES_IN] if faults else [_COVERAGE_IN, lanes_in, _DISTANCES_IN]
     with mpl.rc_context(STYLE):
@@ -49,20 +49,10 @@ def over_time(review: Review, *, titled: bool = True) -> Figure:
         _lanes(axes[1], review)
         _distances(axes[2], review)
         clock_axis(axes[2], "time since power-on")
-        axes[2].set_xlim(seen[0].time_s, seen[-1].time_s)
+        axes[2].set_xlim(*shown_s)
         if titled:
             figure.suptitle(_title(review), x=0.01, ha="left", weight="bold", size=12)
     return figure
-
-
-def thinned(observations: Sequence[Observation]) -> Sequence[Observation]:
-    """So many of them that a line through all is smooth; the last is among them."""
-    kept = observations[:: _stride(observations)]
-    return kept if kept[-1] is observations[-1] else [*kept, observations[-1]]
-
-
-def _stride(observations: Sequence[Observation]) -> int:
-    return max(1, len(observations) // _POINTS)
 
 
 def clock_axis(axes: Axes, words: str) -> None:
@@ -70,11 +60,6 @@ def clock_axis(axes: Axes, words: str) -> None:
     axes.xaxis.set_major_locator(MaxNLocator(9, steps=[1, 1.5, 3, 6]))
     axes.xaxis.set_major_formatter(FuncFormatter(lambda time_s, _: clock(time_s)[:-2]))
     axes.set_xlabel(f"{words}, minutes : seconds")
-
-
-def number(share: float | None) -> float:
-    """A share that may be missing, for a line that may have gaps."""
-    return np.nan if share is None else share
 
 
 def colored_runs(points: Floats, colors: Sequence[str]) -> Iterator[tuple[Floats, str]]:
@@ -125,15 +110,14 @@ def _faults(axes: Axes, faults: Sequence[tuple[str, float, float, int]], below: 
 
 
 def _coverage(axes: Axes, review: Review) -> None:
-    flown = [seen for seen in review.playback.observations if seen.mission_tick is not None]
-    steps = [next(run) for _, run in groupby(flown, key=lambda seen: seen.coverage)] + flown[-1:]
-    times, now = [seen.time_s for seen in steps], [number(seen.coverage) for seen in steps]
+    series = review.series
+    flown = list(zip(series.flown_s, series.coverage, series.coverage_mean, strict=True))
+    steps = [next(run) for _, run in groupby(flown, key=itemgetter(1))] + flown[-1:]
+    times, now = [time_s for time_s, *_ in steps], [share for _, share, _ in steps]
     axes.fill_between(times, now, step="post", color=_GREEN, alpha=0.25, linewidth=0)
     axes.step(times, now, where="post", color=_GOOD, linewidth=0.9, label="seen now")
-    some = thinned(flown)
-    axes.plot(
-        [seen.time_s for seen in some], [number(seen.coverage_mean) for seen in some], color=INK, label="mean so far"
-    )
+    some = flown[:: max(1, len(flown) // POINTS)] + flown[-1:]
+    axes.plot([time_s for time_s, *_ in some], [mean for *_, mean in some], color=INK, label="mean so far")
     floor = review.report["coverage_floor"]
     if floor is not None:
         axes.axhline(floor, color=DIM, linewidth=1.0, linestyle=(0, (4, 3)), label="random, standing still")
@@ -147,13 +131,11 @@ def _coverage(axes: Axes, review: Review) -> None:
 
 def _lanes(axes: Axes, review: Review) -> None:
     """A lane for each agent, A0 on top, and what the colors mean."""
-    observations, met = review.playback.observations, set[Activity]()
-    n_agents, end_s = review.playback.facts.agents, observations[-1].time_s
+    n_agents, met = review.playback.facts.agents, set[Activity]()
     boxes, colors = [], []
-    for uid in range(n_agents):
-        runs = groupby(observations, key=lambda seen: seen.statuses[uid].activity)
-        starts = [(next(run).time_s, activity) for activity, run in runs]
-        for (from_s, activity), (until_s, _) in pairwise([*starts, (end_s, None)]):
+    for uid, starts in enumerate(review.lanes.of):
+        ends_s = [*(time_s for time_s, _ in starts[1:]), review.ended_s]
+        for (from_s, activity), until_s in zip(starts, ends_s, strict=True):
             low, high = uid - _HALF_LANE, uid + _HALF_LANE
             boxes.append(((from_s, low), (from_s, high), (until_s, high), (until_s, low)))
             colors.append(hex_color(ACTIVITY_COLORS[activity]))
@@ -174,15 +156,12 @@ def _lanes(axes: Axes, review: Review) -> None:
 
 def _distances(axes: Axes, review: Review) -> None:
     """How far each target is from the nearest agent: red from one point to the next if nobody saw it in between."""
-    observations = review.playback.observations
-    shown = thinned(observations)
+    shown = review.snapshots
     times = np.array([one.time_s for one in shown])
-    unseen = np.array([[not target.seen for target in one.targets] for one in observations])
-    starts = np.arange(0, max(1, len(observations) - 1), _stride(observations))
-    lost = np.logical_or.reduceat(unseen, starts, axis=0)
+    lost = np.array([one.unseen for one in shown[:-1]])
     for target in range(review.playback.facts.targets):
         away = np.array([_nearest_m(one, target) for one in shown])
-        colors = [_BAD if out else _GOOD for out in lost[: len(shown) - 1, target]]
+        colors = [_BAD if out else _GOOD for out in lost[:, target]]
         for run, color in colored_runs(np.column_stack((times, away)), colors):
             axes.plot(*run.T, color=color, linewidth=1.0, alpha=0.8)
     axes.axhline(review.sensing_range_m, color=INK, linewidth=1.0, linestyle=(0, (4, 3)))
@@ -200,9 +179,7 @@ def _distances(axes: Axes, review: Review) -> None:
     axes.set_title("From each target to the nearest agent, m (red: nobody sees it)")
 
 
-def _nearest_m(seen: Observation, number: int) -> float:
-    target = seen.targets[number]
-    if not target.present or seen.mission_tick is None:
+def _nearest_m(one: Snapshot, target: int) -> float:
+    if not one.on_duty:
         return np.nan
-    places = np.array([truth.position_m[:2] for truth in seen.truths])
-    return float(np.hypot(*(places - (target.x_m, target.y_m)).T).min())
+    return float(np.hypot(*(one.agents_m - one.targets_m[target]).T).min())

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import matplotlib as mpl
+import numpy as np
 from matplotlib.figure import Figure
 
-from missions.review.figures.over_time import clock_axis, number
+from missions.review.figures.over_time import clock_axis
 from missions.review.reading import Review
 from missions.review.words import percent
 from missions.study.style import STYLE, percent_axis
@@ -20,12 +21,11 @@ def side_by_side(first: Review, second: Review) -> Figure:
         figure = Figure(figsize=_SIZE_IN, layout="constrained")
         axes = figure.subplots()
         for review, color in ((first, _FIRST), (second, _SECOND)):
-            flown = [seen for seen in review.playback.observations if seen.mission_tick is not None]
-            began_s = flown[0].time_s if flown else 0.0
-            times = [seen.time_s - began_s for seen in flown]
+            series = review.series
+            times = np.asarray(series.flown_s) - (review.began_s or 0.0)
             name = f"{review.playback.path.name}: {percent(review.report['coverage'])}"
-            axes.plot(times, [number(seen.coverage) for seen in flown], color=color, linewidth=0.7, alpha=0.45)
-            axes.plot(times, [number(seen.coverage_mean) for seen in flown], color=color, label=name)
+            axes.plot(times, series.coverage, color=color, linewidth=0.7, alpha=0.45)
+            axes.plot(times, series.coverage_mean, color=color, label=name)
         percent_axis(axes)
         axes.set_title("Coverage: now (thin) and mean so far")
         clock_axis(axes, "time since the mission began")

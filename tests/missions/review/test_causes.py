@@ -7,9 +7,10 @@ from dataclasses import replace
 
 from comms.status import Activity, AgentStatus, Event, HelpCallStatus, Level
 from missions.observation import AgentTruth, Observation, Phase, TargetTruth
-from missions.review.calls import Fate, calls_of
-from missions.review.losses import Loss, losses_of
-from missions.review.timeline import loss_words, timeline_of
+from missions.review.calls import Fate
+from missions.review.losses import Loss
+from missions.review.story import Story
+from missions.review.timeline import loss_words
 
 _TICK_S = 0.2
 CALL = HelpCallStatus(target=0, loss_in_s=4.0, urgent=True)
@@ -35,8 +36,15 @@ def _seen(tick: int, *statuses: AgentStatus, target: TargetTruth = TARGET, near:
     )
 
 
-def _losses(observations: Sequence[Observation]) -> list[Loss]:
-    return losses_of(observations, calls_of(observations), speed_m_s=1.0, sensing_range_m=4.0)
+def _told(observations: Sequence[Observation]) -> Story:
+    story = Story(speed_m_s=1.0, sensing_range_m=4.0)
+    for seen in observations:
+        story.observe(seen)
+    return story
+
+
+def _losses(observations: Sequence[Observation]) -> Sequence[Loss]:
+    return _told(observations).losses
 
 
 def test_a_target_that_left_the_world_is_nobodys_failure() -> None:
@@ -69,7 +77,7 @@ def test_a_call_that_comes_again_after_a_pause_is_another_and_both_have_an_end()
     quiet, calling = _agent(0, tags=(0,)), _agent(0, tags=(0,), calls=(CALL,))
     # Out from 0.0 to 0.4 s, silent for more than a second, out at 1.6 s, and silent again.
     said = [calling] * 3 + [quiet] * 5 + [calling] + [quiet] * 8
-    first, second = calls_of([_seen(tick, status, _agent(1)) for tick, status in enumerate(said)])
+    first, second = _told([_seen(tick, status, _agent(1)) for tick, status in enumerate(said)]).calls
     assert (first.began_s, first.ended_s, first.fate) == (0.0, 0.4, Fate.KEPT)
     assert (second.began_s, second.fate) == (1.6, Fate.KEPT)
 
@@ -78,7 +86,7 @@ def test_nobody_helps_itself() -> None:
     calling, after = _agent(0, tags=(0,), calls=(CALL,)), _agent(0, Activity.HELPING, helping=0, calls=(CALL,))
     again = _agent(0, tags=(0,))
     said = [calling] * 3 + [after] * 3 + [again] * 8
-    (call,) = calls_of([_seen(tick, status, _agent(1)) for tick, status in enumerate(said)])
+    (call,) = _told([_seen(tick, status, _agent(1)) for tick, status in enumerate(said)]).calls
     assert call.helpers == []
     assert (call.fate, call.owner) == (Fate.KEPT, 0)
 
@@ -88,6 +96,6 @@ def test_echoes_are_routine_and_not_forgotten() -> None:
         return _agent(0, tags=(0,), events=(Event(level, "calls for help: T0, in 4 s"),))
 
     calls = [_seen(tick, says(Level.WARNING), _agent(1)) for tick in range(3)]
-    assert [line.routine for line in timeline_of(calls, [], [])] == [False, True, True]
+    assert [line.routine for line in _told(calls).lines] == [False, True, True]
     errors = [_seen(tick, says(Level.ERROR), _agent(1)) for tick in range(3)]
-    assert not any(line.routine for line in timeline_of(errors, [], []))
+    assert not any(line.routine for line in _told(errors).lines)

@@ -18,6 +18,7 @@ def _loss(**changes: object) -> Loss:
         "owners": (1,),
         "owners_gone": False,
         "left": False,
+        "place_m": (10.0, 20.0),
         "call": None,
         "helpers": (),
     }

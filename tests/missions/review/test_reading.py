@@ -11,14 +11,20 @@ import pytest
 from msgspec import structs
 
 from missions.cli import main
+from missions.observation import Observation
 from missions.problems import InputError
 from missions.recording import Recorder
 from missions.recording.optimize import rerun_command
-from missions.recording.playback import play_back
+from missions.recording.playback import Playback, play_back
 from missions.review.calls import Fate
 from missions.review.reading import read
 from tests.missions.review.conftest import Flown
 from tests.missions.toy_observations import toy_observations, toy_scene
+
+
+def _read_back(path: Path) -> tuple[Playback, list[Observation]]:
+    with play_back(path) as playback:
+        return playback, list(playback.observations())
 
 
 def _lasting(report: dict[str, Any]) -> dict[str, Any]:
@@ -64,7 +70,7 @@ def test_observations_come_back_as_they_were_made(tmp_path: Path, part_s: float 
             recorder.observe(seen)
     names = ["toy.0002.rrd", "toy.0003.rrd", "toy.rrd"] if part_s else ["toy.rrd"]
     assert sorted(path.name for path in tmp_path.iterdir()) == names
-    read_back = play_back(tmp_path / "toy.rrd").observations
+    _, read_back = _read_back(tmp_path / "toy.rrd")
     for old, new in zip(made, read_back, strict=True):
         assert (old.tick, old.phase, old.mission_tick, old.totals) == (
             new.tick,
@@ -97,10 +103,10 @@ def test_a_recorder_that_is_killed_in_a_later_file_leaves_all_of_them_to_be_read
     (tmp_path / "toy.0004.rrd.part").write_bytes(last.read_bytes()[:-100])
     last.unlink()
     (tmp_path / "toy.0005.rrd.part").touch()  # it was opened, and nothing was written
-    playback = play_back(tmp_path / "toy.rrd")
-    assert playback.torn
-    assert [seen.tick for seen in playback.observations] == list(range(len(playback.observations)))
-    assert 300 < len(playback.observations) <= 400
+    playback, seen = _read_back(tmp_path / "toy.rrd")
+    assert (playback.unfinished, playback.damaged) == (True, 0)
+    assert [one.tick for one in seen] == list(range(len(seen)))
+    assert 300 < len(seen) <= 400
 
 
 def test_a_shorter_recording_of_the_same_name_takes_the_place_of_all_files_of_a_longer_one(tmp_path: Path) -> None:
@@ -110,7 +116,7 @@ def test_a_shorter_recording_of_the_same_name_takes_the_place_of_all_files_of_a_
             for seen in toy_observations(scene, ticks=ticks):
                 recorder.observe(seen)
     assert [path.name for path in tmp_path.iterdir()] == ["toy.rrd"]
-    assert len(play_back(tmp_path / "toy.rrd").observations) == 90
+    assert len(_read_back(tmp_path / "toy.rrd")[1]) == 90
 
 
 def test_a_torn_recording_is_repaired_to_be_read_and_left_as_it_is(tmp_path: Path) -> None:
@@ -121,10 +127,10 @@ def test_a_torn_recording_is_repaired_to_be_read_and_left_as_it_is(tmp_path: Pat
         # As if it were killed now, in the middle of a message.
         torn.write_bytes((tmp_path / "whole.rrd.part").read_bytes()[:-100])
     before = torn.read_bytes()
-    playback = play_back(torn)
-    assert playback.torn
+    playback, seen = _read_back(torn)
+    assert (playback.unfinished, playback.damaged) == (True, 0)
     # Five seconds wait in the queue at most, a second to be drawn, another is drawn; and a second is torn.
-    assert 400 - 50 - 3 * 10 <= playback.observations[-1].tick + 1 < 400
+    assert 400 - 50 - 3 * 10 <= seen[-1].tick + 1 < 400
     assert playback.ticks_missing == 0
     assert torn.read_bytes() == before
 
@@ -136,7 +142,7 @@ def test_ticks_in_which_nobody_sends_are_ticks(tmp_path: Path) -> None:
     with Recorder(tmp_path / "toy.rrd", scene=scene) as recorder:
         for one in silent:
             recorder.observe(one)
-    assert [one.tick for one in play_back(tmp_path / "toy.rrd").observations] == list(range(120))
+    assert [one.tick for one in _read_back(tmp_path / "toy.rrd")[1]] == list(range(120))
 
 
 def test_a_battery_is_what_was_heard_last_of_it_or_unknown(tmp_path: Path) -> None:
@@ -146,7 +152,7 @@ def test_a_battery_is_what_was_heard_last_of_it_or_unknown(tmp_path: Path) -> No
             heard = {0: None, 1: 0.75 if one.tick < 20 else None}
             statuses = [structs.replace(s, battery=heard.get(s.uid, s.battery)) for s in one.statuses]
             recorder.observe(replace(one, statuses=tuple(statuses)))
-    last = play_back(tmp_path / "toy.rrd").observations[-1]
+    last = _read_back(tmp_path / "toy.rrd")[1][-1]
     assert [status.battery for status in last.statuses[:2]] == [None, 0.75]
 
 
@@ -156,7 +162,7 @@ def test_a_recorder_that_came_late_or_dropped_ticks_says_so(tmp_path: Path) -> N
         for one in toy_observations(scene, ticks=120):
             if one.tick >= 20 and one.tick not in range(50, 57):
                 recorder.observe(one)
-    assert play_back(tmp_path / "toy.rrd").ticks_missing == 27
+    assert _read_back(tmp_path / "toy.rrd")[0].ticks_missing == 27
 
 
 @pytest.fixture
@@ -186,7 +192,9 @@ def test_a_bad_byte_costs_little_of_a_recording(
     begins = _beginnings(unfinished)
     unfinished[begins[round(where * len(begins))] + offset] ^= 0x55
     (tmp_path / "bad.rrd.part").write_bytes(unfinished)
-    assert len(play_back(tmp_path / "bad.rrd.part").observations) >= 50
+    playback, seen = _read_back(tmp_path / "bad.rrd.part")
+    assert len(seen) >= 50
+    assert playback.damaged >= 1
 
 
 def test_a_message_at_which_the_reader_crashes_is_left_out(
@@ -206,7 +214,9 @@ def test_a_message_at_which_the_reader_crashes_is_left_out(
     """)
     tool.chmod(0o755)
     monkeypatch.setenv("RERUN_CLI_PATH", str(tool))
-    assert len(play_back(tmp_path / "bad.rrd.part").observations) >= 50
+    playback, seen = _read_back(tmp_path / "bad.rrd.part")
+    assert len(seen) >= 50
+    assert playback.damaged >= 1
 
 
 @pytest.mark.parametrize("content", [b"", b"no recording", b"RRF2" + bytes(200)])

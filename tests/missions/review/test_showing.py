@@ -15,6 +15,7 @@ from xml.etree import ElementTree
 import pytest
 
 from missions.cli import main
+from missions.recording.playback import play_back
 from missions.review.comparison import parting_s
 from missions.review.reading import read
 from missions.review.words import clock, clock_s
@@ -48,10 +49,12 @@ def test_a_line_of_the_timeline_reads_when_who_doing_what(flown: Flown, capsys: 
 def test_a_moment_tells_what_an_agent_followed_knew_and_wanted(
     flown: Flown, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    seen = next(seen for seen in flown.review.playback.observations if any(status.tags for status in seen.statuses))
+    with play_back(flown.recording) as playback:
+        observations = list(playback.observations())
+    seen = next(seen for seen in observations if any(status.tags for status in seen.statuses))
     status = next(status for status in seen.statuses if status.tags)
     told = _told(capsys, str(flown.recording), "--at", clock(seen.time_s + 2.0), "--agent", str(status.uid))
-    now = flown.review.at(seen.time_s + 2.0).statuses[status.uid]
+    now = next(one for one in observations if one.time_s > seen.time_s + 1.99).statuses[status.uid]
     assert told.startswith(f"A{status.uid} at {clock(seen.time_s + 2.0)}: {now.activity.value}")
     assert all(f"T{number} (" in told for number in now.tags)
     assert "What it knew and wanted" in told
