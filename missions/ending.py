@@ -33,6 +33,7 @@ class Ending:
         self.asked = False
         self.interrupted = False
         self._signaled = False
+        self._times = 0  # asked
         self._tell = tell
 
     @contextmanager
@@ -53,9 +54,15 @@ class Ending:
 
     def ask(self) -> None:
         """End, please."""
+        self._times += 1
         if not self.asked:
             self.asked = True
             self._tell("asked to end: landing first; a second time ends at once")
+
+    def begin_anew(self) -> Callable[[], bool]:
+        """What was asked for is done, and something else begins: signals count anew. Returns whether that is to end."""
+        self._signaled, before = False, self._times
+        return lambda: self._times > before
 
     def _hear(self, number: int, frame: FrameType | None) -> None:
         if self._signaled and number != signal.SIGHUP:  # a terminal that goes says so twice, and is nobody's haste

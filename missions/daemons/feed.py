@@ -20,12 +20,19 @@ WINDOW_TICKS = 100  # lockstep lets the recorder fall behind so far, and then wa
 LOST_S = 30.0  # a recorder that does not get on for so long is lost
 KEPT_EVERY_TICKS = 10
 LOOK_S = 0.2
+UNAWAITED = "asked to end before the recording was finished"
+
+
+def _never() -> bool:
+    """Nobody stops it."""
+    return False
 
 
 class Kept(msgspec.Struct, frozen=True):
     """The recorder to the world: ticks up to this one are kept (-1: it is there), in that file; or why it failed.
 
     closed: the file is whole, but for the ticks that were dropped. fingerprint: of the mission that it was given.
+    life: of the recorder's process.
     """
 
     tick: int
@@ -34,10 +41,11 @@ class Kept(msgspec.Struct, frozen=True):
     closed: bool = False
     dropped: int = 0
     fingerprint: str = ""
+    life: int = 0
 
 
 class Feed:
-    """An observer that passes observations on to a recorder, if there is one.
+    """An observer that passes observations on to a recorder, if there is one. Others look on: nobody waits for them.
 
     Args:
         fingerprint: of the mission; a recorder of another one gets nothing.
@@ -81,13 +89,15 @@ class Feed:
         kept = self._kept
         return Path(kept.recording) if kept is not None and kept.recording is not None else None
 
-    def await_recorder(self, timeout_s: float) -> None:
+    def await_recorder(self, timeout_s: float, *, stop: Callable[[], bool]) -> None:
         """Until it is there.
 
         Raises:
-            CrewError: it does not come.
+            CrewError: it does not come, or `stop` says that it is not to be waited for.
         """
-        if not self._wait(lambda kept: True, timeout_s):
+        if not self._wait(lambda kept: True, timeout_s, stop):
+            if stop():
+                raise CrewError("asked to end before the recorder was there")
             raise CrewError(f"no sign of the recorder for {timeout_s:g} s")
 
     def observe(self, observation: Observation) -> None:
@@ -106,23 +116,23 @@ class Feed:
             if behind and not self._wait(lambda kept: kept.tick >= due or kept.closed, LOST_S):
                 self._fail(f"the recorder does not get on: nothing is recorded from {observation.time_s:.1f} s")
 
-    def close(self) -> None:
-        """The mission is over: wait until its recording is whole."""
+    def close(self, *, stop: Callable[[], bool]) -> None:
+        """The mission is over: wait until its recording is whole, unless that is to stop."""
         self._put(OVER)
         if self._kept is None or self.failures:
             return
-        if not self._wait(lambda kept: kept.closed, LOST_S):
-            self._fail("the recording was not finished")
+        if not self._wait(lambda kept: kept.closed, LOST_S, stop):
+            self._fail(UNAWAITED if stop() else "the recording was not finished")
         elif self._kept.dropped:
             self._fail(f"the recorder was too slow, or its link was cut: {self._kept.dropped} ticks are missing")
 
-    def _wait(self, enough: Callable[[Kept], bool], timeout_s: float) -> bool:
+    def _wait(self, enough: Callable[[Kept], bool], timeout_s: float, stop: Callable[[], bool] = _never) -> bool:
         deadline_s = monotonic() + timeout_s
         with self._progress:
             while self._kept is None or not enough(self._kept):
                 left_s = deadline_s - monotonic()
                 lost = self._kept is not None and self._is_gone()
-                if left_s <= 0.0 or lost or (self._kept is not None and self._kept.failure):
+                if left_s <= 0.0 or lost or (self._kept is not None and self._kept.failure) or stop():
                     return False
                 self._progress.wait(min(left_s, LOOK_S))
         return True
@@ -145,6 +155,8 @@ class Feed:
             if not self._is_strange:
                 self._is_strange = True
                 self._tell(Event(Level.ERROR, STRANGE))
+            return
+        if self._kept is not None and kept.life != self._kept.life:
             return
         with self._progress:
             if self._kept is None:

@@ -9,11 +9,12 @@ from time import monotonic
 from typing import TYPE_CHECKING
 
 import msgspec
+from msgspec import structs
 
 from comms.keys import RECORDER, WORLD, Keys
 from comms.session import BusError, Network
 from missions.daemons.feed import KEPT_EVERY_TICKS, WINDOW_TICKS, Kept
-from missions.daemons.joining import open_world, unmet
+from missions.daemons.joining import new_life, open_world, unmet
 from missions.daemons.log import Log
 from missions.daemons.options import DaemonOptions, await_world_s, fingerprint
 from missions.daemons.security import silence
@@ -69,6 +70,7 @@ class _Reel:
         keys = Keys(mission.name)
         self._recorder = recorder
         self._fingerprint = fingerprint(mission, daemon.speed)
+        self._life = new_life()
         self._daemon = daemon
         self._ending = ending
         self._log = log
@@ -135,7 +137,7 @@ class _Reel:
         return None if self._recorder.path is None else str(self._recorder.path)
 
     def _tell(self, kept: Kept) -> None:
-        self._put(msgspec.msgpack.encode(kept))
+        self._put(msgspec.msgpack.encode(structs.replace(kept, life=self._life)))
 
     def _hear(self, key: str, payload: bytes) -> None:
         if payload == OVER:  # there is always room for that

@@ -125,7 +125,7 @@ def _run(
     observers: list[Observer] = [metrics, feed, _Teller(log)]
     try:
         if options.recorded:
-            feed.await_recorder(daemon.join_s)
+            feed.await_recorder(daemon.join_s, stop=desk.is_closing)
         side.meet(crew.hello())
         began_s = time.monotonic()
         with _progress(mission, console, metrics) as progress:
@@ -134,13 +134,16 @@ def _run(
     finally:
         disband()
         crew.dismiss()
-        feed.close()
+        was_asked, is_asked_again = ending.asked, ending.begin_anew()
+        feed.close(stop=lambda: desk.is_closing() and is_asked_again())
     for failure in feed.failures:
         metrics.fault(side.clock_s, None, failure)
     report = make_report(side, metrics, wall_s=time.monotonic() - began_s, recording=feed.recording)
     publish(report, to=options.report, console=console)
-    if ending.asked:
-        return STOPPED if ending.interrupted else DONE
+    if ending.interrupted:
+        return STOPPED
+    if was_asked:
+        return DONE
     return DONE if side.complete and len(crew.lost) <= mission.agents.may_lose and not feed.failures else FAILED
 
 

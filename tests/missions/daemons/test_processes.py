@@ -11,6 +11,8 @@ from typing import Any
 
 import pytest
 
+from missions.daemons.crew import TAKEN
+from missions.daemons.feed import UNAWAITED
 from missions.daemons.options import fingerprint
 from missions.load import load_mission
 from tests.missions.daemons.swarm import (
@@ -228,6 +230,44 @@ def test_who_has_another_mission_or_another_pace_is_not_let_in(change: tuple[str
     with swarm("world", *one) as world, swarm("agent", *other, "--id", "0"), swarm("record", *recorder):
         world.wait_for('who=agent-0 text="has another mission, or another --speed')
         world.wait_for('who=recorder text="has another mission, or another --speed')
+
+
+def test_a_second_process_of_an_agent_says_why_it_goes_and_changes_nothing(tmp_path: Path) -> None:
+    one, two, endpoint = tmp_path / "one.json", tmp_path / "two.json", free_endpoint()
+    mission = ("quickstart", *SMALL, "--duration", "20")
+    with swarm("launch", *mission, "--report", str(one)) as alone:
+        assert alone.wait() == 0, alone.output
+    connect = ("agent", *mission, "--connect", endpoint, "--id")
+    with (
+        swarm("world", *mission, "--listen", endpoint, "--report", str(two)) as world,
+        swarm(*connect, "1") as first,
+    ):
+        first.wait_for("ready")
+        with swarm(*connect, "1") as second:
+            assert second.wait() == 2, second.output
+            assert TAKEN in second.output
+        with swarm(*connect, "0") as other, swarm(*connect, "2") as another:
+            assert [process.wait() for process in (world, first, other, another)] == [0, 0, 0, 0], world.output
+    assert first.output.count("landed and disarmed") == 1
+    assert decided(one) == decided(two)
+
+
+def test_a_world_that_waits_for_its_recording_can_be_stopped(tmp_path: Path) -> None:
+    pytest.importorskip("rerun")
+    file, endpoint = tmp_path / "report.json", free_endpoint()
+    mission = ("quickstart", *SMALL, "--speed", "10", "--duration", "2", "--log-level", "info")
+    connect = (*mission, "--connect", endpoint)
+    with (
+        swarm("world", *mission, "--listen", endpoint, "--recorded", "--report", str(file)) as world,
+        swarm("record", *connect, "--record", str(tmp_path / "q.rrd")) as recorder,
+        swarm("agent", *connect, "--id", "0-2") as agents,
+    ):
+        world.wait_for("the mission begins")
+        recorder.process.send_signal(signal.SIGSTOP)
+        assert agents.wait() == 0, agents.output
+        world.process.terminate()
+        assert world.wait() == 1, world.output
+    assert [fault["what"] for fault in report_of(file)["faults"]] == [UNAWAITED]
 
 
 def test_two_worlds_do_not_share_a_port() -> None:

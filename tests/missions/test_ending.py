@@ -1,0 +1,33 @@
+"""When a process is to end: signals and orders, one by one and again."""
+
+from __future__ import annotations
+
+import signal
+
+import pytest
+
+from missions.ending import Ending
+
+
+def test_a_first_signal_asks_and_a_second_one_ends_at_once() -> None:
+    told: list[str] = []
+    ending = Ending(told.append)
+    with ending.listening():
+        ending.ask()  # an order is nobody's haste
+        signal.raise_signal(signal.SIGTERM)
+        assert ending.asked
+        assert len(told) == 1
+        with pytest.raises(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGTERM)
+
+
+def test_signals_count_anew_for_what_begins_when_a_flight_is_over() -> None:
+    ending = Ending(lambda text: None)
+    with ending.listening():
+        signal.raise_signal(signal.SIGTERM)  # ends the flight
+        is_asked_again = ending.begin_anew()
+        assert not is_asked_again()
+        signal.raise_signal(signal.SIGTERM)  # and what comes after it
+        assert is_asked_again()
+        with pytest.raises(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGTERM)
