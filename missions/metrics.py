@@ -34,14 +34,17 @@ class EventCount:
 class HelpCount:
     """Episodes of help. A call is an episode of one agent calling for one target, however often it is renewed.
 
-    answered: an agent set out to help. captured: it came to own the target. taken_over: it left the target to another
-    helper.
+    answered: an agent set out to help another. captured: it came to own the target. taken_over: it left the target to
+    somebody else who goes after it. pursued: an agent set out for a target that it had lost itself, which is no help.
+    found_again: it came to own it.
     """
 
     calls: int = 0
     answered: int = 0
     captured: int = 0
     taken_over: int = 0
+    pursued: int = 0
+    found_again: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +74,7 @@ class Metrics:
     tick_late_s_max: float = 0.0
     _before: tuple[AgentStatus, ...] = ()
     _on_duty_before: bool = False
+    _pursuing: set[int] = field(default_factory=set)  # agents that go after what they lost themselves
     _called_at_s: dict[tuple[int, int], float] = field(default_factory=dict)  # by (agent, target)
     _close: set[tuple[int, int]] = field(default_factory=set)
 
@@ -90,7 +94,7 @@ class Metrics:
             )
             before = self._before if self._on_duty_before else ()
             _count_tags(self.events, _owners(before), _owners(observation.statuses))
-            _count_help(self.help, before, observation.statuses)
+            _count_help(self.help, before, observation.statuses, self._pursuing)
             self._count_calls(observation)
         self._before, self._on_duty_before = observation.statuses, on_duty
 
@@ -170,15 +174,29 @@ def _count_tags(count: EventCount, before: Mapping[int, set[int]], now: Mapping[
     count.target_loss += sum(1 for target in before if target not in now)
 
 
-def _count_help(count: HelpCount, before: Sequence[AgentStatus], now: Sequence[AgentStatus]) -> None:
+def _count_help(
+    count: HelpCount, before: Sequence[AgentStatus], now: Sequence[AgentStatus], pursuing: set[int]
+) -> None:
+    """One tick, and who pursues after it."""
     helped = {status.helping for status in now}
     for index, status in enumerate(now):
-        old = before[index] if before else None
-        was_helping = old.helping if old else None
-        if status.helping is not None and status.helping != was_helping:
-            count.answered += 1
-        if was_helping is not None and status.helping != was_helping:
-            if was_helping in status.tags:
-                count.captured += 1
-            elif was_helping in helped:
-                count.taken_over += 1
+        was_helping = before[index].helping if before else None
+        if status.helping == was_helping:
+            continue
+        if was_helping is not None:
+            caught, own = was_helping in status.tags, status.uid in pursuing
+            count.captured += caught and not own
+            count.found_again += caught and own
+            count.taken_over += not caught and not own and was_helping in helped
+        pursuing.discard(status.uid)
+        if status.helping is not None:
+            own = pursues(status)
+            count.pursued += own
+            count.answered += not own
+            if own:
+                pursuing.add(status.uid)
+
+
+def pursues(status: AgentStatus) -> bool:
+    """Whether an agent that goes after a called target calls for it itself: it has lost it, and helps nobody."""
+    return any(call.target == status.helping for call in status.calls)

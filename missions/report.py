@@ -188,7 +188,8 @@ def _lines(report: Report) -> Mapping[str, str]:
         "events": f"{events['target_loss']} losses, {events['target_discovery']} discoveries, "
         f"{events['tag_switch']} tag switches",
         "help": f"{helped['calls']} calls, {helped['answered']} answered, {helped['captured']} captured, "
-        f"{helped['taken_over']} taken over",
+        f"{helped['taken_over']} taken over; {helped['pursued']} own losses pursued, "
+        f"{helped['found_again']} found again",
         "radio": f"{radio['sent']} frames sent, {radio['delivered']} delivered, {radio['out_of_range']} out of range, "
         f"{radio['lost']} lost, {radio['refused']} refused, {radio['bytes'] / 1e6:.1f} MB",
         "mavlink": f"{mavlink['sent']} sent, {mavlink['received']} received, {mavlink['bad']} bad, "

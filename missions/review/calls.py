@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 
 from comms.status import AgentStatus, HelpCallStatus
-from missions.metrics import CALL_PAUSE_S
+from missions.metrics import CALL_PAUSE_S, pursues
 from missions.observation import Observation
 
 
@@ -73,8 +73,8 @@ class Calls:
                 call.urgent |= told.urgent
         for (caller, target), call in self._open.items():
             for status in seen.statuses:
-                # Whoever lost a target goes after it, too; that is no help.
-                if status.helping == target and status.uid not in (caller, *call.helpers):
+                known = status.uid == caller or status.uid in call.helpers
+                if status.helping == target and not known and not pursues(status):
                     call.helpers.append(status.uid)
 
     def out(self, target: int, callers: Collection[int]) -> Call | None:

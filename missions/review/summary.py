@@ -140,7 +140,10 @@ def _help_words(review: Review) -> str:
     report = review.report["help"]
     fates = Counter(call.fate for call in review.calls)
     ends = ", ".join(f"{fates[fate]} {words}" for fate, words in _FATES.items() if fates[fate])
-    return f"{report['calls']} calls" + (f": {ends}" if ends else "") + f"; {report['answered']} set out to help"
+    helped = f"{report['answered']} set out to help"
+    if report["pursued"]:
+        helped += f", {report['pursued']} after what they had lost themselves"
+    return f"{report['calls']} calls" + (f": {ends}" if ends else "") + f"; {helped}"
 
 
 def _highlights(found: Iterable[Highlight]) -> Table:

@@ -51,7 +51,7 @@ class Runs:
     Attributes:
         seeds (R): of each run. seen (R, T): targets seen by at least one agent. present (R, T): targets in the world.
         events (R, 3): target losses, discoveries, tag switches (definition 7).
-        help (R, 4): calls, answered, captured, taken over. n_agents, n_targets: of each run.
+        help (R, 6): `missions.metrics.HelpCount` of each. n_agents, n_targets: of each run.
     """
 
     seeds: Ints

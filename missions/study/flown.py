@@ -30,6 +30,8 @@ COUNTS = (
     "answered",
     "captured",
     "taken_over",
+    "pursued",
+    "found_again",
 )
 
 
@@ -39,7 +41,7 @@ class Flown:
 
     Attributes:
         seeds (R). seen, present (R, S): targets seen and present, summed over the ticks of each second.
-        counts (R, 7): COUNTS of each run. late (R): coverage of the last quarter of the ticks.
+        counts (R, 9): COUNTS of each run. late (R): coverage of the last quarter of the ticks.
         n_agents, n_targets: of every run.
         noticed_s (R, F): how long after each of the mission's faults somebody noticed it, NaN where nobody did; None
             for a mission without faults.

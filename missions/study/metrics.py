@@ -102,6 +102,8 @@ _COUNT_LABELS = (
     "answered calls",
     "captures after a call",
     "calls taken over",
+    "own losses pursued",
+    "own losses found again",
 )
 QUANTITIES: dict[str, Quantity] = {
     "coverage": Quantity("coverage", "%", _coverage),

@@ -30,6 +30,8 @@ Metric = Literal[
     "answered",
     "captured",
     "taken_over",
+    "pursued",
+    "found_again",
 ]
 Expect = Literal["above", "below", "about", "closer", "insignificant"]
 

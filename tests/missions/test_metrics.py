@@ -91,6 +91,21 @@ def test_help_episodes() -> None:
     assert (metrics.help.captured, metrics.help.taken_over) == (1, 1)
 
 
+def test_who_goes_after_what_it_lost_itself_helps_nobody() -> None:
+    metrics = fly(
+        (status(0, 1, 2, calls=(2,)), status(1)),
+        (status(0, 1, calls=(2,), helping=2), status(1, helping=2)),  # one pursues what it has lost, one helps
+        (status(0, 1, 2), status(1, helping=2)),  # found again
+        (status(0, 1, 2, calls=(2,)), status(1)),  # left to nobody
+        (status(0, 1, calls=(2,), helping=2), status(1)),
+        (status(0, 1, helping=2), status(1)),  # it goes on though its own call has expired
+        (status(0, 1), status(1, 2)),
+    )
+    counts = metrics.help
+    assert (counts.pursued, counts.found_again) == (2, 1)
+    assert (counts.answered, counts.captured, counts.taken_over) == (1, 0, 0)
+
+
 def test_faults_are_told_once_each_with_their_agent() -> None:
     lost = AgentStatus(uid=1, activity=Activity.LOST)
     crash = AgentStatus(uid=0, activity=Activity.LOST, events=(Event(Level.ERROR, "arming refused"),))

@@ -24,14 +24,22 @@ def count(kept: Kept, tables: Table, f: Flock, said: Said, k: int, now: float) -
             f.called_at[i, j] = now
         old, new = f.helping[i], said.answer[i]
         if new != old:
-            kept.help[1] += new != NOBODY
             if old != NOBODY:
-                if tables.tagged[i, old]:
-                    kept.help[2] += 1
-                else:
-                    kept.help[3] += _is_answered(said, old)
+                _count_end(kept, tables, f, said, i, old)
+            if new != NOBODY:
+                f.pursuing[i] = tables.calling[i, new]
+                kept.help[4 if f.pursuing[i] else 1] += 1
     for i in range(m):
         f.helping[i] = said.answer[i]
+
+
+@inlined
+def _count_end(kept: Kept, tables: Table, f: Flock, said: Said, i: int, j: int) -> None:
+    """How it ended that agent i went after target j."""
+    if tables.tagged[i, j]:
+        kept.help[5 if f.pursuing[i] else 2] += 1
+    elif not f.pursuing[i]:
+        kept.help[3] += _is_answered(said, j)
 
 
 @inlined

@@ -91,7 +91,8 @@ class Flock(NamedTuple):
         v_east, v_north (m): velocity to the next tick.
         target_x .. target_uy (n), here (n): targets, and whether they are in the world. seen (n): whether any sensor
         sees them, under whatever name.
-        owned (m, n), helping (m): tags and help one tick ago. called_at (m, n): when each call was last out.
+        owned (m, n), helping (m): tags and help one tick ago. pursuing (m): whether it is a target that it lost itself.
+        called_at (m, n): when each call was last out.
         linked (m, m): who hears whom; nobody hears itself.
     """
 
@@ -122,6 +123,7 @@ class Flock(NamedTuple):
     seen: Array
     owned: Array
     helping: Array
+    pursuing: Array
     called_at: Array
     linked: Array
 
@@ -157,6 +159,7 @@ def new_flock(setup: Setup) -> Flock:
         seen=np.zeros(n, np.bool_),
         owned=np.zeros((m, n), np.bool_),
         helping=np.full(m, NOBODY),
+        pursuing=np.zeros(m, np.bool_),
         called_at=np.full((m, n), NEVER),
         linked=np.zeros((m, m), np.bool_),
     )
@@ -168,7 +171,7 @@ class Kept(NamedTuple):
     seen: Array  # (T)
     present: Array  # (T)
     events: Array  # (3)
-    help: Array  # (4)
+    help: Array  # (6)
     agents: Array  # (T, m, 2)
     targets: Array  # (T, n, 2)
     tagged: Array  # (T, m, n)
@@ -183,7 +186,7 @@ def new_kept(ticks: int, m: int, n: int, keep_all: bool) -> Kept:
         seen=np.zeros(ticks, np.int32),
         present=np.zeros(ticks, np.int32),
         events=np.zeros(3, np.int64),
-        help=np.zeros(4, np.int64),
+        help=np.zeros(6, np.int64),
         agents=np.zeros((more, m, 2)),
         targets=np.zeros((more, n, 2)),
         tagged=np.zeros((more, m, n), np.bool_),

@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from missions.study.flown import Flown, second_starts
+from missions.study.flown import COUNTS, Flown, second_starts
 from missions.study.metrics import QUANTITIES, Window
 
 
 def flown(seen: list[list[int]], present: int, *, seeds: list[int] | None = None, agents: int = 2) -> Flown:
     rows = np.array(seen, dtype=np.int64)
     names = seeds or list(range(len(seen)))
-    counts = np.array([[seed * 10 + kind for kind in range(7)] for seed in names], dtype=np.int64)
+    counts = np.array([[seed * 10 + kind for kind in range(len(COUNTS))] for seed in names], dtype=np.int64)
     late = rows[:, -1] / max(present, 1)
     return Flown(np.array(names), rows, np.full_like(rows, present), counts, late, agents, 4)
 
