@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from collections.abc import Sequence
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -29,14 +30,17 @@ def rerun_command() -> list[str]:
     return [sys.executable, "-m", "rerun_cli"]
 
 
-def optimize(source: Path, destination: Path, *options: str) -> None:
+def optimize(source: Path, destination: Path, *options: str, views: Sequence[Path] = ()) -> None:
     """Write a compacted, indexed copy of `source` to `destination`, whole or not at all; they may be the same.
+
+    Args:
+        views: files of blueprints that the copy is to have besides.
 
     Raises:
         RuntimeError: rerun's tool is missing or refused, with what it said.
     """
     unfinished = destination.with_name(destination.name + ".tmp")
-    command = [*rerun_command(), "rrd", "optimize", *options, str(source), "-o", str(unfinished)]
+    command = [*rerun_command(), "rrd", "optimize", *options, *map(str, views), str(source), "-o", str(unfinished)]
     try:
         subprocess.run(command, check=True, capture_output=True, text=True, timeout=_TIMEOUT_S)
         os.replace(unfinished, destination)

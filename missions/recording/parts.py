@@ -11,13 +11,14 @@ import threading
 from collections.abc import Iterator, Sequence
 from itertools import chain, count, takewhile
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from missions.recording.blueprint import blueprint
 from missions.recording.optimize import optimize
 from missions.recording.repair import repair
 from missions.recording.scene import Scene
 from missions.recording.stage import set_stage
-from missions.recording.tape import Tape
+from missions.recording.tape import APPLICATION_ID, Tape
 
 # So long is a part of a small swarm; a large swarm's is shorter. An open file remembers where everything lies in it:
 # 36 MB of memory for each minute of 10 agents over 10 targets.
@@ -71,6 +72,7 @@ class Parts:
         self._ticks = max(1, round(part_s / scene.tick_s))
         self._number = 0
         self._packing: list[threading.Thread] = []
+        self._folder = TemporaryDirectory(prefix="swarm-record-")
         self.tape: Tape
         self.written_bytes = 0
 
@@ -84,13 +86,21 @@ class Parts:
         return tick >= self._ticks * self._number
 
     def begin(self) -> None:
-        """Open the next part. Each can be opened without the others."""
+        """Open the next part. Once it is packed, it can be opened without the others.
+
+        The first part has its view from the beginning. The others get it when they are packed: rerun keeps two threads
+        of each view that goes the usual way until the process ends.
+        """
         self._number += 1
         if self._number == 1:
             if self.being_written.exists():
                 self._keep_the_crashed()
             self.tape = Tape(self._scene)
-        self.tape.write(self.being_written, blueprint(self._scene, live=False))
+            self.tape.write(self.being_written, blueprint(self._scene, live=False))
+        else:
+            if self._number == 2:
+                blueprint(self._scene, live=False).save(APPLICATION_ID, str(self._view))
+            self.tape.write(self.being_written)
         set_stage(self.tape, self._scene)
 
     def end(self) -> None:
@@ -103,7 +113,8 @@ class Parts:
             for old in chain.from_iterable(_later(self._path)):
                 old.unlink()
         os.replace(self.being_written, path)
-        thread = threading.Thread(target=_pack, args=(path,), name="packer", daemon=True)
+        views = [] if self._number == 1 else [self._view]
+        thread = threading.Thread(target=_pack, args=(path, views), name="packer", daemon=True)
         thread.start()
         self._packing.append(thread)
 
@@ -111,6 +122,11 @@ class Parts:
         """Until all that has ended is packed."""
         for thread in self._packing:
             thread.join()
+        self._folder.cleanup()
+
+    @property
+    def _view(self) -> Path:
+        return Path(self._folder.name) / "view.rbl"
 
     def _keep_the_crashed(self) -> None:
         """The flight before never ended, and its recording may be what somebody will ask for."""
@@ -122,8 +138,8 @@ class Parts:
             _log.warning("%s, of a flight that never ended, is replaced: %s", self.being_written, error)
 
 
-def _pack(path: Path) -> None:
+def _pack(path: Path, views: Sequence[Path]) -> None:
     try:
-        optimize(path, path)
+        optimize(path, path, views=views)
     except RuntimeError as error:
         _log.warning("%s; the recording is complete, but larger than need be", error)

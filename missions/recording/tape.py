@@ -24,13 +24,12 @@ class Tape:
 
     def __init__(self, scene: Scene) -> None:
         # No automatic properties: they hold the wall clock, and equal missions shall give equal recordings.
-        # One stream serves all files: rerun keeps the threads of each until the process ends. (It does so with
-        # each file's view, too: two threads.)
+        # One stream serves all files: rerun keeps the threads of each until the process ends.
         self._stream = rr.RecordingStream(APPLICATION_ID, recording_id=scene.recording_id, send_properties=False)
         self._name = scene.mission_name
 
-    def write(self, path: Path, blueprint: rrb.Blueprint) -> None:
-        """Record into `path`, replacing it."""
+    def write(self, path: Path, blueprint: rrb.Blueprint | None = None) -> None:
+        """Record into `path`, replacing it; with the view, if there is one."""
         self._stream.set_sinks(rr.FileSink(path), default_blueprint=blueprint)
         self._stream.send_recording_name(self._name)
 

@@ -173,17 +173,14 @@ def growth(samples: Sequence[Sample], name: str) -> tuple[float, float]:
     return median(values[quarter : 2 * quarter] or values), median(values[-quarter:])
 
 
-def bound(name: str, process: str, n_files: int) -> Bound:
-    """What a process is allowed, where its recording has `n_files` files."""
-    if process != "record":
-        return BOUNDS[name]
-    # It remembers where everything lies in the file that it writes, and begins another after 15 minutes of the mission;
-    # rerun keeps two threads of each file's view until the process ends.
-    of_files = {"resident_mb": Bound(ONE_FILE_MB, 0.0), "threads": Bound(2.0 * n_files, 0.0)}
-    return of_files.get(name, BOUNDS[name])
+def bound(name: str, process: str) -> Bound:
+    """What a process is allowed."""
+    # The recorder remembers where everything lies in the file that it writes, and begins another after 15 minutes of
+    # the mission.
+    return Bound(ONE_FILE_MB, 0.0) if (process, name) == ("record", "resident_mb") else BOUNDS[name]
 
 
-def verdict(samples: Sequence[Sample], *, n_files: int) -> tuple[Table, bool]:
+def verdict(samples: Sequence[Sample]) -> tuple[Table, bool]:
     """What became of each process, and whether all of it is within bounds."""
     table = Table("process", *BOUNDS, box=None)
     steady = True
@@ -192,7 +189,7 @@ def verdict(samples: Sequence[Sample], *, n_files: int) -> tuple[Table, bool]:
         cells = []
         for name in BOUNDS:
             early, late = growth(own, name)
-            fine = bound(name, process, n_files).allows(early, late)
+            fine = bound(name, process).allows(early, late)
             steady = steady and fine
             cells.append(f"{early:.3g} to {late:.3g}" + ("" if fine else " GROWS"))
         table.add_row(process, *cells)
@@ -257,7 +254,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for old in options.out.glob("soak*"):
         old.unlink()
     samples = soak(minutes=options.minutes, agents=options.agents, every_s=options.every, folder=options.out)
-    table, steady = verdict(samples, n_files=len(list(options.out.glob("soak*.rrd"))))
+    table, steady = verdict(samples)
     plot(samples, options.out / "soak.png")
     console = Console()
     console.print(f"{options.minutes:g} minutes, medians of the second and the last quarter of them")
