@@ -7,6 +7,7 @@ only when the one that is there has spoken long after it came.
 
 from __future__ import annotations
 
+from collections import deque
 from dataclasses import dataclass
 
 from msgspec import structs
@@ -19,6 +20,7 @@ from missions.sides.exchange import HELLO_TICK, Done, LinkCount, RadioTally
 SURE_S = 1.5 * LEASE_S
 MOST_RIVALS = 4  # that are remembered
 MOST_LIVES = 8  # whose counts are told apart
+MOST_NEWS = 1000  # while nobody asks, as while time stands still; the oldest go
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +50,7 @@ class Member:
         self.life = 0
         self.is_there = False
         self.is_new = False
-        self.news: list[Event] = []
+        self.news: deque[Event] = deque(maxlen=MOST_NEWS)
         self.heard_at_s = 0.0
         self.lost_at_s: float | None = None
         self._spoke_at_s = 0.0
