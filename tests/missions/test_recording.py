@@ -6,7 +6,8 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from urllib.request import urlopen
@@ -384,26 +385,41 @@ class TestTrouble:
         assert list(tmp_path.iterdir()) == []
 
 
+# Threads of other tests come and go, so each recording is made by a process of its own, which then waits.
+RECORDING = """
+import sys
+from missions.recording import Recorder
+from tests.missions.toy_observations import toy_observations, toy_scene
+scene = toy_scene()
+with Recorder(sys.argv[1], scene=scene, part_s=float(sys.argv[2])) as recorder:
+    for seen in toy_observations(scene, ticks=60):
+        recorder.observe(seen)
+print("recorded", flush=True)
+input()
+"""
+
+
+@contextmanager
+def _recorded(path: Path, *, part_s: float) -> Iterator[Callable[[], int]]:
+    """How many threads a process has that has recorded there, whenever it is asked."""
+    command = [sys.executable, "-c", RECORDING, str(path), str(part_s)]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
+        try:
+            assert process.stdout is not None
+            assert process.stdout.readline() == "recorded\n"
+            yield lambda: len(os.listdir(f"/proc/{process.pid}/task"))
+        finally:
+            process.kill()
+
+
 def test_further_files_have_their_view_and_cost_no_threads_but_those_that_rerun_keeps_of_one_view(
     tmp_path: Path,
 ) -> None:
-    def threads() -> int:
-        return len(os.listdir("/proc/self/task"))
-
-    def record(name: str, part_s: float | None) -> int:
-        before = threads()
-        scene = toy_scene()
-        with Recorder(tmp_path / name, scene=scene, part_s=part_s) as recorder:
-            for seen in toy_observations(scene, ticks=60):
-                recorder.observe(seen)
-        return before
-
-    record("warm-up.rrd", None)  # what rerun starts once for all
-    # The short one first: what ends late of it makes the long one's count no larger.
-    before = record("short.rrd", None)
-    short = threads() - before
-    before = record("long.rrd", 1.0)
-    until(lambda: threads() - before - short <= 2)  # threads end a little later
+    with (
+        _recorded(tmp_path / "short.rrd", part_s=60.0) as of_one,
+        _recorded(tmp_path / "long.rrd", part_s=1.0) as of_six,
+    ):
+        until(lambda: of_six() <= of_one() + 2)  # threads end a little later
     parts = list(tmp_path.glob("long*"))
     assert len(parts) == 6
     assert all(len(RrdReader(part).blueprints()) == 1 for part in parts)
