@@ -14,7 +14,13 @@ from missions.observation import Observation
 from swarm_agent.mates import RECEPTION, SILENCE
 
 _SILENT = re.compile(rf"{SILENCE} A(\d+)\b")
-_OF_TARGETS = re.compile(r"\bT\d+\b")
+# What ArduPilot, PX4 and their pilots say of each trouble. PX4 does not say why it is in a failsafe; of wind nobody
+# says more than where it has blown them.
+_OF_GPS = r"\bGPS\b|\bEKF|\bglitch|\bno position\b|position estimate|requires position|^Failsafe activated"
+_OF_BATTERY = r"\bbattery\b"
+_OF_BOOT = r"motors are off in flight|\brestarted\b|\bcrash|telemetry has fallen silent|^link lost"
+_OF_WIND = r"\bwind\b|outside its fence|fence breached"
+_OVER = re.compile(r"\bcleared$", re.IGNORECASE)  # the trouble, and not a sign of it
 
 # Whether what `speaker` says tells of the fault.
 Sign = Callable[[Any, int, Event], bool]
@@ -85,10 +91,15 @@ def _reception_is_poor(fault: Any, speaker: int, event: Event) -> bool:
     return fault.agents is None or speaker in fault.agents or mate in fault.agents
 
 
-def _vehicle_complains(fault: Any, speaker: int, event: Event) -> bool:
-    """The autopilot or the pilot of a vehicle that is broken has a complaint, whatever about."""
-    of_others = _silent(event) is not None or event.text.startswith(RECEPTION) or _OF_TARGETS.search(event.text)
-    return not of_others and (fault.agents is None or speaker in fault.agents)
+def _vehicle_says(words: str) -> Sign:
+    """An autopilot that is hit, or the pilot of it, complains of this."""
+    complaint = re.compile(words, re.IGNORECASE)
+
+    def tells(fault: Any, speaker: int, event: Event) -> bool:
+        hit = fault.agents is None or speaker in fault.agents
+        return hit and complaint.search(event.text) is not None and _OVER.search(event.text) is None
+
+    return tells
 
 
 def _never(fault: Any, speaker: int, event: Event) -> bool:
@@ -99,15 +110,15 @@ def _never(fault: Any, speaker: int, event: Event) -> bool:
 SIGNS: dict[str, Sign] = {
     "kill": _mate_is_missed,
     "freeze": _mate_is_missed,
-    "reboot": _vehicle_complains,
+    "reboot": _vehicle_says(_OF_BOOT),
     "silence": _radio_is_dead,
     "loss": _reception_is_poor,
     "bursts": _reception_is_poor,
     "latency": _reception_is_poor,
     "partition": _other_group_is_missed,
-    "gps_lost": _vehicle_complains,
-    "gps_glitch": _vehicle_complains,
-    "battery_low": _vehicle_complains,
-    "wind": _vehicle_complains,
+    "gps_lost": _vehicle_says(_OF_GPS),
+    "gps_glitch": _vehicle_says(_OF_GPS),
+    "battery_low": _vehicle_says(_OF_BATTERY),
+    "wind": _vehicle_says(_OF_WIND),
     "identity": _never,
 }

@@ -84,6 +84,43 @@ def test_noticed(fault: dict[str, Any], said: dict[tuple[int, int], str], found:
     assert noticed({**fault, "at_s": 50}, said) == found
 
 
+# Of a vehicle's faults: what is said of them first, in flights of either flavor.
+SAID = [
+    ("gps_lost", "EKF3 lane switch 1"),
+    ("gps_lost", "Failsafe activated"),  # PX4
+    ("gps_lost", "no position for 1.5 s: holding still"),
+    ("gps_glitch", "GPS Glitch or Compass error"),
+    ("reboot", "the motors are off in flight"),
+    ("reboot", "telemetry has fallen silent: asking for it again"),
+    ("reboot", "the autopilot has restarted: it is checked anew"),  # PX4
+    ("battery_low", "battery at 10.7 V: coming home"),
+    ("battery_low", "Battery 1 is low 10.50V used 3000 mAh"),
+    ("battery_low", "Critical battery level, land now"),  # PX4
+    ("wind", "0.1 m outside its fence: coming back"),
+]
+GPS = ("gps_lost", "gps_glitch")
+# What is said of the very agent, and not of its vehicle: by the world, of the world, of targets and mates, by people.
+FOREIGN = [
+    "its process has died, or its link is cut",
+    "no answer for 10 s: lost",
+    "its process is back",
+    "no word from the world: holds still, for 30 s at most",
+    "has lost T3: out of sight",
+    SILENT.format(3),
+    POOR,
+    "Glitch cleared",
+    "EKF Failsafe Cleared",
+]
+
+
+@pytest.mark.parametrize("kind", ["gps_lost", "gps_glitch", "reboot", "battery_low", "wind"])
+def test_a_vehicles_fault_is_noticed_by_words_of_its_own_and_by_no_others(kind: str) -> None:
+    for of, text in [*SAID, *(("", text) for text in FOREIGN)]:
+        tells = of == kind or (of in GPS and kind in GPS)
+        found = noticed({"kind": kind, "agents": [2], "at_s": 50}, {(55, 2): text})
+        assert found == ((5, 2) if tells else (None, None)), text
+
+
 def test_mere_information_is_no_sign() -> None:
     assert noticed({"kind": "kill", "agents": [3], "at_s": 5}, {(7, 1): SILENT.format(3)}, level=Level.INFO)[0] is None
 
