@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import socket
 from io import StringIO
 from pathlib import Path
 
@@ -11,6 +12,8 @@ from rich.console import Console
 from missions.daemons import launcher, processes
 from missions.daemons.launcher import run_processes
 from missions.daemons.processes import ProcessPlan
+from missions.exit_codes import BAD_INPUT
+from missions.problems import InputError
 from missions.sides.phases import RETURN_LIMIT_S
 from tests.missions.daemons.swarm import free_endpoint
 from tests.patience import PATIENCE_S
@@ -25,6 +28,9 @@ while not (folder / "told").exists() and time.monotonic() < deadline_s:
 LAND = AWAIT + '(folder / "landed").touch()'
 # Two of a kind would be one.
 HURRY = AWAIT + "[os.kill(os.getppid(), number) for number in (signal.SIGINT, signal.SIGTERM)]; time.sleep(600)"
+
+NO_MISSION = (ProcessPlan(name="world", identity="world", words=("world", "no-such-mission"), vital=True),)
+NEEDS_IPV6 = pytest.mark.skipif("not has_ipv6()", reason="no IPv6 here")
 
 
 class Watcher(StringIO):
@@ -49,6 +55,36 @@ def launched(folder: Path, agent: str, monkeypatch: pytest.MonkeyPatch) -> int:
         ProcessPlan(name="agent 0", identity="agent-0", words=(agent.format(folder=str(folder)),)),
     )
     return run_processes(plans, endpoint=free_endpoint(), console=Console(file=Watcher(folder)))
+
+
+def has_ipv6() -> bool:
+    """Whether this computer speaks IPv6 to itself."""
+    try:
+        with socket.create_server(("::1", 0), family=socket.AF_INET6):
+            return True
+    except OSError:
+        return False
+
+
+@pytest.mark.parametrize("host", ["127.0.0.1", "localhost", pytest.param("[::1]", marks=NEEDS_IPV6)])
+def test_a_mission_meets_at_any_address_of_this_machine_that_is_free(host: str) -> None:
+    family, address = (socket.AF_INET6, "::1") if host == "[::1]" else (socket.AF_INET, "127.0.0.1")
+    with socket.create_server((address, 0), family=family) as server:
+        endpoint = f"tcp/{host}:{server.getsockname()[1]}"
+        with pytest.raises(InputError, match=r"a free port of this machine .*in use"):
+            run_processes(NO_MISSION, endpoint=endpoint, console=Console(file=StringIO()))
+    # Now it is free: it comes as far as its world, which is told a mission that is none.
+    assert run_processes(NO_MISSION, endpoint=endpoint, console=Console(file=StringIO())) == BAD_INPUT
+
+
+@pytest.mark.parametrize(
+    "endpoint",
+    ["", "tcp", "tcp/7447", "tcp/:7447", "udp/127.0.0.1:7447", "tcp/127.0.0.1:x", "tcp/127.0.0.1:99999", "tcp/[::1:7",
+     "tcp/nobody.invalid:7447", "tcp/203.0.113.1:7447"],
+)  # fmt: skip
+def test_where_nobody_can_listen_is_said(endpoint: str) -> None:
+    with pytest.raises(InputError, match=r"--listen: got .*; allowed: "):
+        run_processes(NO_MISSION, endpoint=endpoint, console=Console(file=StringIO()))
 
 
 def test_agents_that_outlive_their_world_are_told_of_and_may_land(
