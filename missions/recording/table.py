@@ -14,7 +14,7 @@ from rerun.chunk import RrdReader
 MISSION = "/__properties/mission"
 _ROW_ID, _TICK, _TIME = "rerun.controls.RowId", "tick", "mission_time"
 # So many rows are lists at a time; the others are as they lie in the file, which takes a fraction of the memory.
-_SLICE = 256
+_SLICE = 32
 _KEYS = {_TICK: pa.int64(), _TIME: pa.duration("ns"), _ROW_ID: pa.binary(16)}
 _POINT = pa.list_(pa.field("item", pa.float32(), nullable=False), 3)
 

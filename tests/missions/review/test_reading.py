@@ -7,8 +7,12 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+import pyarrow as pa
 import pytest
+import rerun as rr
 from msgspec import structs
+from rerun.chunk import Chunk, LazyChunkStream, RrdReader
 
 from missions.cli import main
 from missions.observation import Observation
@@ -195,6 +199,39 @@ def test_a_bad_byte_costs_little_of_a_recording(
     playback, seen = _read_back(tmp_path / "bad.rrd.part")
     assert len(seen) >= 50
     assert playback.damaged >= 1
+
+
+@pytest.mark.parametrize(
+    ("path", "tick", "columns"),
+    [
+        ("/ledger/duties", 70, {"helping": pa.array([1]), "flight_mode": pa.array(["GUIDED"])}),
+        ("/ledger/tags", 70, {"agent": pa.array([99]), "target": pa.array([0])}),
+        ("/ledger/phase", 70, {"phase": pa.array(["lunch"]), "mission_began_at": pa.array([50])}),
+        ("/ledger/totals", 70, {"total": pa.array(["many"])}),
+        ("/ledger/totals", 2**60, {"total": pa.array([1])}),
+    ],
+    ids=["too few", "no such agent", "no such phase", "not of its type", "a tick at another time"],
+)
+def test_what_makes_no_sense_is_left_out_and_told(
+    tmp_path: Path, path: str, tick: int, columns: dict[str, pa.Array]
+) -> None:
+    scene = toy_scene()
+    with Recorder(tmp_path / "toy.rrd", scene=scene) as recorder:
+        for one in toy_observations(scene, ticks=120):
+            recorder.observe(one)
+    reader = RrdReader(tmp_path / "toy.rrd")
+    entry = reader.recordings()[0]
+    indexes = [
+        rr.TimeColumn("tick", sequence=[tick]),
+        rr.TimeColumn("mission_time", duration=[np.timedelta64(70 * 10**8, "ns")]),
+    ]
+    odd = Chunk.from_columns(path, indexes=indexes, columns=rr.AnyValues.columns(**columns))
+    LazyChunkStream.from_iter([*reader.stream(), odd]).write_rrd(
+        tmp_path / "odd.rrd", application_id=entry.application_id, recording_id=entry.recording_id
+    )
+    sound, odd_one = (_read_back(tmp_path / name) for name in ("toy.rrd", "odd.rrd"))
+    assert (sound[0].damaged, odd_one[0].damaged) == (0, 1)
+    assert sound[1] == odd_one[1]
 
 
 def test_a_message_at_which_the_reader_crashes_is_left_out(
