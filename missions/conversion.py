@@ -11,7 +11,7 @@ from rich.console import Console
 
 from missions.flightlog import FlightLog
 from missions.problems import InputError, OutputError
-from missions.recording.imported import record_logs
+from missions.recording.imported import SameNameError, record_logs
 from missions.review.words import clock
 
 
@@ -27,7 +27,14 @@ def import_logs(paths: Sequence[Path], to: Path) -> None:
     with ExitStack() as stack:
         logs = [stack.enter_context(_opened(path)) for path in paths]
         try:
-            imported = record_logs(logs, to, name=paths[0].stem if len(paths) == 1 else f"{len(paths)} logs")
+            name = _in_unicode(paths[0].stem) if len(paths) == 1 else f"{len(paths)} logs"
+            imported = record_logs(logs, to, name=name)
+        except SameNameError as both:
+            first, second = (paths[number] for number in both.logs)
+            raise InputError(
+                f"{first} and {second}: got vehicles of one system id ({both.vehicle}) at the same time; "
+                "allowed: one log of each vehicle at a time, so import them one by one"
+            ) from both
         except OutputError as error:
             raise InputError(f"--to: got {to}; allowed: a file that can be written ({error})") from error
         for path, log in zip(paths, logs, strict=True):
@@ -52,3 +59,8 @@ def _opened(path: Path) -> Iterator[FlightLog]:
     finally:
         if isinstance(data, mmap):
             data.close()
+
+
+def _in_unicode(name: str) -> str:
+    """A file's name without the bytes that are no UTF-8."""
+    return name.encode(errors="replace").decode()

@@ -57,8 +57,14 @@ def record(mission: Mission, daemon: DaemonOptions, options: LaunchOptions) -> i
             recorder.__exit__(type(error), error, None)
             return unmet(error, mission, daemon, ending=ending, log=log)
         except KeyboardInterrupt:
-            log.error("ended at once")
+            log.error(f"ended at once{_remains(recorder)}")
     return STOPPED if ending.interrupted else FAILED
+
+
+def _remains(recorder: Recorder) -> str:
+    """What one who does not wait for the end of a file should know."""
+    part = recorder.being_written
+    return "" if part is None or not part.is_file() else f": {part} is not finished; swarm review repairs it to be read"
 
 
 class _Reel:

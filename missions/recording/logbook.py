@@ -80,13 +80,13 @@ class Logbook:
         """Write a stretch."""
         gathered: dict[tuple[str, str], list[Entry]] = defaultdict(list)
         for entry in entries:
-            gathered[_sender(entry.message), entry.message.get_type()].append(entry)
+            gathered[sender_of(entry.message), entry.message.get_type()].append(entry)
         for (sender, kind), some in gathered.items():
             times_s = np.array([entry.unix_s for entry in some]) - self._began_s
             told = _Told(times_s, [entry.message for entry in some])
             self.kinds.add(kind)
             self._numbers(f"/mavlink/{sender}/{kind}", told)
-            if sender.startswith(_VEHICLE):
+            if is_vehicle(sender):
                 self._vehicle(sender, kind, told)
 
     def finish(self) -> None:
@@ -188,7 +188,12 @@ class Logbook:
                 self._send(path, told.times_s, rr.Scalars.columns(scalars=values))
 
 
-def _sender(message: Message) -> str:
+def is_vehicle(sender: str) -> bool:
+    """Whether it is a vehicle, not a ground station or a part."""
+    return sender.startswith(_VEHICLE)
+
+
+def sender_of(message: Message) -> str:
     """V7 is the autopilot of system 7, S255-190 a ground station or a part beside the autopilot."""
     system, component = message.get_srcSystem(), message.get_srcComponent()
     return f"{_VEHICLE}{system}" if component == 1 and system != _GROUND_STATION else f"S{system}-{component}"

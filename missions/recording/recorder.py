@@ -112,6 +112,11 @@ class Recorder:
         return self._intake.dropped
 
     @property
+    def being_written(self) -> Path | None:
+        """The file that grows; None if there is none."""
+        return None if self._parts is None else self._parts.being_written
+
+    @property
     def written_bytes(self) -> int:
         """How long the file was before it was optimized."""
         return 0 if self._parts is None else self._parts.written_bytes

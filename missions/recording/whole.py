@@ -50,22 +50,25 @@ def whole(path: Path) -> Iterator[Whole]:
     with TemporaryDirectory(prefix="swarm-review-") as folder:
         parts = parts_of(path)
         files, damaged = [], 0
-        for part in parts:
-            file, lost = _readable(part, Path(folder), needed=part == path)
+        for number, part in enumerate(parts):
+            file, lost = _readable(part, Path(folder) / f"{number}.rrd", needed=part == path)
             damaged += lost
             if file is not None:
                 files.append(file)
         yield Whole(files, not all(map(_is_closed, parts)), damaged)
 
 
-def _readable(path: Path, folder: Path, *, needed: bool) -> tuple[Path | None, int]:
+def _readable(path: Path, copy: Path, *, needed: bool) -> tuple[Path | None, int]:
     """The file, or a repaired copy of it; None if it may be missing: a last part of which nothing was written yet.
 
     And in how many places it is damaged.
     """
-    if _is_whole(path):
-        return path, 0
-    copy = folder / path.name
+    plain = path
+    if not str(path).isprintable():  # rerun opens no file whose name is not UTF-8
+        plain = copy.with_name(f"link-{copy.name}")
+        plain.symlink_to(path.resolve())
+    if _is_whole(plain):
+        return plain, 0
     try:
         damaged = repair(path, copy)
     except RuntimeError as error:

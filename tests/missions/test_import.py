@@ -207,3 +207,21 @@ def test_what_is_no_log_is_bad_input(tmp_path: Path, capsys: pytest.CaptureFixtu
     assert "got no MAVLink; allowed: a .tlog" in capsys.readouterr().err
     assert main(["import", str(tmp_path / "missing.tlog"), "--to", str(out)]) == 2
     assert not out.exists()
+
+
+def test_vehicles_of_one_system_id_in_two_logs_are_told_apart_by_time_or_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def log(name: str, *times_s: float) -> str:
+        path = tmp_path / name
+        path.write_bytes(b"".join(_entry(HEARTBEAT, after_s=time_s) for time_s in times_s))
+        return str(path)
+
+    before, after = log("before.tlog", 0.0, 1.0), log("after.tlog", 2.0, 3.0)
+    meanwhile = log("meanwhile.tlog", 0.5, 1.5)
+    to = str(tmp_path / "both.rrd")
+    assert main(["import", before, after, "--to", to]) == 0
+    assert "V1, 4 messages" in capsys.readouterr().out
+    assert main(["import", before, meanwhile, "--to", to]) == 2
+    told = capsys.readouterr().err
+    assert f"{before} and {meanwhile}: got vehicles of one system id (V1) at the same time" in told

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -254,6 +255,18 @@ def test_a_message_at_which_the_reader_crashes_is_left_out(
     playback, seen = _read_back(tmp_path / "bad.rrd.part")
     assert len(seen) >= 50
     assert playback.damaged >= 1
+
+
+def test_a_name_that_is_no_utf_8_is_read(tmp_path: Path) -> None:
+    scene, odd = toy_scene(), tmp_path / os.fsdecode(b"n\xff.rrd")
+    with Recorder(tmp_path / "toy.rrd", scene=scene) as recorder:
+        for one in toy_observations(scene, ticks=30):
+            recorder.observe(one)
+    try:
+        (tmp_path / "toy.rrd").rename(odd)
+    except OSError:
+        pytest.skip("this file system has no such names")
+    assert len(_read_back(odd)[1]) == 30
 
 
 @pytest.mark.parametrize("content", [b"", b"no recording", b"RRF2" + bytes(200)])
