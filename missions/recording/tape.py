@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from pathlib import Path
 
+import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
 
@@ -68,5 +70,10 @@ class Tape:
 
 
 def _indexes(block: Block) -> list[rr.TimeColumn]:
-    times = rr.TimeColumn(TIME_LINE, duration=block.times_ns.astype("timedelta64[ns]"))
-    return [times, rr.TimeColumn(TICK_LINE, sequence=block.ticks)]
+    return _columns(block.times_ns.tobytes(), block.ticks.tobytes())
+
+
+@lru_cache(maxsize=16)  # most entities are drawn at the same few ticks
+def _columns(times_ns: bytes, ticks: bytes) -> list[rr.TimeColumn]:
+    times = rr.TimeColumn(TIME_LINE, duration=np.frombuffer(times_ns, "timedelta64[ns]"))
+    return [times, rr.TimeColumn(TICK_LINE, sequence=np.frombuffer(ticks, np.int64))]
