@@ -93,7 +93,7 @@ class Metrics:
                 tick=observation.mission_tick,
             )
             before = self._before if self._on_duty_before else ()
-            _count_tags(self.events, _owners(before), _owners(observation.statuses))
+            _count_tags(self.events, owners_of(before), owners_of(observation.statuses))
             _count_help(self.help, before, observation.statuses, self._pursuing)
             self._count_calls(observation)
         self._before, self._on_duty_before = observation.statuses, on_duty
@@ -155,21 +155,22 @@ def _on_grid(place_m: Vec3) -> Vec3:
     )
 
 
-def _owners(statuses: Sequence[AgentStatus]) -> dict[int, set[int]]:
-    owners: dict[int, set[int]] = {}
+def owners_of(statuses: Sequence[AgentStatus]) -> dict[int, tuple[int, ...]]:
+    """Who has each target that somebody has."""
+    owners: dict[int, tuple[int, ...]] = {}
     for status in statuses:
         for target in status.tags:
-            owners.setdefault(target, set()).add(status.uid)
+            owners[target] = (*owners.get(target, ()), status.uid)
     return owners
 
 
-def _count_tags(count: EventCount, before: Mapping[int, set[int]], now: Mapping[int, set[int]]) -> None:
+def _count_tags(count: EventCount, before: Mapping[int, Sequence[int]], now: Mapping[int, Sequence[int]]) -> None:
     # For a moment two agents may both claim a target (their claims cross in the air): a switch is complete when the
     # new owner is there and the old one has let go.
     for target, owners in now.items():
         if target not in before:
             count.target_discovery += 1
-        elif not before[target] <= owners:
+        elif not {*before[target]} <= {*owners}:
             count.tag_switch += 1
     count.target_loss += sum(1 for target in before if target not in now)
 

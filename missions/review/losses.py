@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from math import hypot, inf
 
 from comms.status import OFF_DUTY, Activity
+from missions.metrics import owners_of
 from missions.observation import Observation
 from missions.review.calls import Call, Calls
 
@@ -81,7 +82,7 @@ class Losses:
         self._lately.append(seen)
         while seen.time_s - self._lately[0].time_s > FORESIGHT_S:
             self._lately.popleft()
-        before, self._owners = self._owners, _owners(seen)
+        before, self._owners = self._owners, owners_of(seen.statuses)
         for target in self._at_large.keys() & self._owners.keys():
             loss = self._at_large.pop(target)
             loss.found_after_s = seen.time_s - loss.time_s
@@ -115,14 +116,6 @@ def longest(losses: Sequence[Loss], count: int) -> list[Loss]:
     """The `count` losses that lasted longest, in order of time; those of targets that left come after all others."""
     found = sorted(losses, key=lambda loss: (loss.left, -(loss.found_after_s or inf)))[:count]
     return sorted(found, key=lambda loss: loss.time_s)
-
-
-def _owners(seen: Observation) -> dict[int, tuple[int, ...]]:
-    owners: dict[int, tuple[int, ...]] = {}
-    for status in seen.statuses:
-        for target in status.tags:
-            owners[target] = (*owners.get(target, ()), status.uid)
-    return owners
 
 
 def _chances(
