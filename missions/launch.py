@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection
 from contextlib import ExitStack
 from datetime import UTC, datetime
 from math import acos, isinf
@@ -36,7 +36,7 @@ from missions.plan import coverage_floor
 from missions.problems import InputError, OutputError
 from missions.progress import progress_on
 from missions.report import PACKAGES, check_files, make_report, publish, versions
-from missions.tlog import Tlog, tlogs
+from missions.tlog import Tlog, failures, tlogs
 from vehicle_sim.autopilot import SimulatedVehicle
 
 if TYPE_CHECKING:
@@ -96,9 +96,10 @@ def _fly(
             stack.enter_context(open_ground_link(url, _simulated(flight), option="--gcs", key=options.gcs_key))
             for url in options.gcs
         ]
-        logs: Sequence[Tlog] = ()
-        if options.tlog is not None:
-            logs = stack.enter_context(tlogs(options.tlog, flight.crew, began_unix_s=time.time()))
+        uids = [side.uid for side in flight.crew]
+        logs = stack.enter_context(tlogs(options.tlog, uids, began_unix_s=time.time()))
+        for side in flight.crew if logs else ():
+            side.tap = logs[side.uid].pass_on
         observers: list[Observer] = [*links, metrics]
         if mission.in_real_time:
             observers.append(EventLog(console))
@@ -130,7 +131,7 @@ def _fly(
             flight.run(pace=pace_of(mission, options.speed), observers=observers, stop=stop, attended=attended)
         finally:
             kept = recorder is None or _closed(recorder, metrics, flight)
-            kept = _logged(logs, metrics, flight) and kept
+            kept = _logged(logs.values(), metrics, flight) and kept
         for link in links:
             console.print(str(link), soft_wrap=True, markup=False)
     return kept
@@ -153,14 +154,14 @@ def _closed(recorder: Recorder, metrics: Metrics, flight: Flight) -> bool:
     return not recorder.dropped
 
 
-def _logged(logs: Sequence[Tlog], metrics: Metrics, flight: Flight) -> bool:
+def _logged(logs: Collection[Tlog], metrics: Metrics, flight: Flight) -> bool:
     """Close the logs; what could not be kept is a fault of the mission's, not its end."""
     for log in logs:
         log.close()
-    failures = {str(log.failure) for log in logs if log.failure is not None}
-    for failure in sorted(failures):
-        metrics.fault(flight.clock_s, None, f"the telemetry logs are not whole: {failure}")
-    return not failures
+    broken = failures(logs)
+    for failure in broken:
+        metrics.fault(flight.clock_s, None, failure)
+    return not broken
 
 
 def pace_of(mission: Mission, speed: float) -> Pace:

@@ -7,14 +7,14 @@ and QGroundControl read it.
 from __future__ import annotations
 
 import struct
-from collections.abc import Iterator, Sequence
+import time
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import BinaryIO
 
 from comms.framing import frames
 from missions.problems import InputError
-from missions.sides.agent import AgentSide
 
 # Mission time from one flush to the next: what a killed process loses.
 FLUSH_S = 1.0
@@ -25,15 +25,16 @@ class Tlog:
     """One link's log: what the vehicle and its agent say to each other, in the order in which it passes.
 
     Args:
-        file: open for writing bytes. began_unix_s: the wall clock when the mission clock was 0.
+        file: open for writing bytes. began_unix_s: the wall clock when the mission clock was 0; None: such that what
+            comes first comes now.
 
     Attributes:
         failure: why it keeps nothing any more, such as a full disk. A log never ends a flight.
     """
 
-    def __init__(self, file: BinaryIO, *, began_unix_s: float) -> None:
+    def __init__(self, file: BinaryIO, *, began_unix_s: float | None) -> None:
         self._file = file
-        self._began_us = round(began_unix_s * 1e6)
+        self._began_unix_s = began_unix_s
         self._rests = [b"", b""]  # frames begun: the vehicle's, the agent's
         self._flush_at_s = FLUSH_S
         self.failure: OSError | None = None
@@ -57,7 +58,9 @@ class Tlog:
             self.failure = self.failure or error
 
     def _keep(self, now_s: float, heard: bytes, said: bytes) -> None:
-        stamp = _STAMP.pack(self._began_us + round(now_s * 1e6))
+        if self._began_unix_s is None:
+            self._began_unix_s = time.time() - now_s
+        stamp = _STAMP.pack(round(self._began_unix_s * 1e6) + round(now_s * 1e6))
         for side, data in enumerate((heard, said)):
             if data:
                 whole, self._rests[side] = frames(self._rests[side] + data)
@@ -67,22 +70,39 @@ class Tlog:
             self._flush_at_s = now_s + FLUSH_S
 
 
+def log_of(folder: Path, uid: int) -> Path:
+    """The log of one agent's link."""
+    return folder / f"agent-{uid}.tlog"
+
+
+def failures(logs: Iterable[Tlog]) -> list[str]:
+    """Why some of these are not whole, now that they are closed."""
+    return sorted({f"the telemetry logs are not whole: {log.failure}" for log in logs if log.failure is not None})
+
+
 @contextmanager
-def tlogs(folder: Path, sides: Sequence[AgentSide], *, began_unix_s: float) -> Iterator[Sequence[Tlog]]:
-    """Keep a log of each agent's link in `folder`, `agent-3.tlog` for agent 3; older ones are replaced.
+def tlogs(
+    folder: Path | None, uids: Iterable[int], *, began_unix_s: float | None, adds: bool = False
+) -> Iterator[Mapping[int, Tlog]]:
+    """A log of each of these agents' links in `folder`, `agent-3.tlog` for agent 3; none without a folder.
+
+    Args:
+        adds: to older ones, for an agent may come back to a mission that is under way; else they are replaced.
 
     Raises:
         InputError: they cannot be written there.
     """
-    logs: list[Tlog] = []
+    if folder is None:
+        yield {}
+        return
+    logs: dict[int, Tlog] = {}
     with ExitStack() as stack:
         try:
             folder.mkdir(parents=True, exist_ok=True)
-            for side in sides:
-                log = Tlog((folder / f"agent-{side.uid}.tlog").open("wb"), began_unix_s=began_unix_s)
-                stack.callback(log.close)
-                side.tap = log.pass_on
-                logs.append(log)
+            for uid in uids:
+                file = log_of(folder, uid).open("ab" if adds else "wb")
+                logs[uid] = Tlog(file, began_unix_s=began_unix_s)
+                stack.callback(logs[uid].close)
         except OSError as error:
             raise InputError(
                 f"--tlog: got {folder}; allowed: a folder that can be written ({error.strerror})"

@@ -8,7 +8,7 @@ While the world is silent it holds still on its own clock (`seat`, `contact`) an
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from math import inf
 from time import monotonic, sleep
 
@@ -40,6 +40,7 @@ from missions.sides.computer import Computer
 from missions.sides.exchange import Cue
 from missions.sides.phases import RETURN_LIMIT_S
 from missions.targets import n_targets
+from missions.tlog import Tlog, failures, tlogs
 
 HELLO_EVERY_S = 0.1
 MOST_AT_ONCE = 20  # ticks that are made up for before it listens again
@@ -60,10 +61,14 @@ def agent(mission: Mission, uids: Sequence[int], options: DaemonOptions) -> int:
             with (
                 open_world(options, ending=ending, log=log, n_peers=len(mission.radio.endpoints)) as bus,
                 open_airwaves(mission, uids, options, bus) as airwaves,
+                tlogs(options.tlog, uids, began_unix_s=None, adds=True) as logs,
             ):
                 radios = compose.radios(mission, airwaves, uids, n_targets(mission))
-                daemon = _Daemon(mission, radios, bus, transports, options, ending=ending, log=log)
-                return daemon.run()
+                daemon = _Daemon(mission, radios, bus, transports, logs, options, ending=ending, log=log)
+                code = daemon.run()
+            for failure in failures(logs.values()):
+                log.error(failure)
+            return code
         except BusError as error:
             return unmet(error, mission, options, ending=ending, log=log)
         except KeyboardInterrupt:
@@ -78,6 +83,7 @@ class _Daemon:
         radios: Sequence[Radio],
         bus: Network,
         transports: dict[int, Transport],
+        logs: Mapping[int, Tlog],
         options: DaemonOptions,
         *,
         ending: Ending,
@@ -86,6 +92,7 @@ class _Daemon:
         self._mission = mission
         self._bus = bus
         self._transports = transports
+        self._logs = logs
         self._options = options
         self._ending = ending
         self._log = log
@@ -155,6 +162,8 @@ class _Daemon:
             transports=self._transports,
             started_tick=started_tick,
         )
+        if uid in self._logs:
+            side.tap = self._logs[uid].pass_on
         period_s = None if self._options.lockstep else self._mission.tick_s / self._options.speed
         put = self._bus.publisher(self._keys.done(uid))
         return Seat(side, put, self._mission, life=self._life, period_s=period_s)

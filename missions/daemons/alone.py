@@ -37,6 +37,7 @@ from missions.sides.agent import AgentSide, agent_sides
 from missions.sides.exchange import Cue
 from missions.sides.phases import Phases
 from missions.targets import n_targets
+from missions.tlog import failures, tlogs
 
 LOOK_S = 0.05
 WAITING = "waits on the ground for resume"
@@ -56,6 +57,7 @@ def alone(mission: Mission, uids: Sequence[int], options: DaemonOptions) -> int:
             with (
                 open_router(options.endpoint, lossless=False, gate=gate) as board,
                 open_airwaves(mission, uids, options, board) as airwaves,
+                tlogs(options.tlog, uids, began_unix_s=0.0, adds=True) as logs,  # its clock is UTC
             ):
                 count = n_targets(mission)
                 radios = compose.radios(mission, airwaves, uids, count)
@@ -66,8 +68,12 @@ def alone(mission: Mission, uids: Sequence[int], options: DaemonOptions) -> int:
                     return STOPPED if ending.interrupted else DONE
                 tick = ceil(time() / mission.tick_s)
                 sides = agent_sides(mission, radios, n_targets=count, transports=transports, started_tick=tick)
+                for side in sides if logs else ():
+                    side.tap = logs[side.uid].pass_on
                 code = _fly(mission, desk.seat(sides, tick_s=mission.tick_s), eyes, desk, tick, log=log)
-                return STOPPED if ending.interrupted else code
+            for failure in failures(logs.values()):
+                log.error(failure)
+            return STOPPED if ending.interrupted else code
         except BusError as error:
             raise InputError(f"--alone: {error}") from error
         except KeyboardInterrupt:

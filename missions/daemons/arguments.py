@@ -82,6 +82,7 @@ def agent_options(parser: Parser) -> Parser:
     parser.add_argument("--id", required=True, metavar="N", help="its number from 0, or several: 0-4")
     about = f"without a world: listen there for people and detectors ({ENDPOINT}), in UTC, from swarm resume on"
     parser.add_argument("--alone", nargs="?", const=ENDPOINT, metavar="ENDPOINT", help=about)
+    parser.add_argument("--tlog", type=Path, metavar="DIR", help="add to a log of each link there, for MAVProxy")
     _add_insecure(parser)
     return _add_daemon(parser, "--connect", "where the world listens")
 

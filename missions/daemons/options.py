@@ -29,6 +29,7 @@ class DaemonOptions:
         speed: mission seconds per second of wall time; `inf` is as fast as it goes.
         log_level: the least that is said. leash: end when standard input does.
         credentials: what proves who it is; None: anybody may come in.
+        tlog: the folder for a log of each link to a vehicle, if any.
     """
 
     endpoint: str = ENDPOINT
@@ -37,6 +38,7 @@ class DaemonOptions:
     log_level: Level = Level.INFO
     leash: bool = False
     credentials: Credentials | None = None
+    tlog: Path | None = None
 
     @property
     def lockstep(self) -> bool:

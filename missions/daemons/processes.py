@@ -45,7 +45,7 @@ class ProcessOptions:
 
     Attributes:
         mission_words: the mission and what changes it, as on the command line. speed: as given to --speed, if it was.
-        views: --view, --web: how people look on.
+        tlog: the folder of the agents' telemetry logs. views: --view, --web: how people look on.
         per_process: agents in one process. restarts: of an agent that fails. keys: the folder of all credentials, if
         the network is secured. insecure: whether that is left out on purpose.
     """
@@ -55,6 +55,7 @@ class ProcessOptions:
     speed: str | None = None
     report: str | None = None
     record: Path | None = None
+    tlog: Path | None = None
     views: tuple[str, ...] = ()
     per_process: int = 1
     restarts: int = 3
@@ -71,6 +72,7 @@ def plan_processes(mission: Mission, options: ProcessOptions) -> tuple[ProcessPl
     speed = () if options.speed is None else ("--speed", options.speed)
     report = () if options.report is None else ("--report", options.report)
     connect = (*options.mission_words, "--connect", options.endpoint, *speed, *common)
+    logged = () if options.tlog is None else ("--tlog", str(options.tlog))
     unsecured = insecure if mission.radio.endpoints else ()
     kept = () if options.record is None else ("--record", str(options.record))
     recorder = (*kept, *options.views)
@@ -98,7 +100,7 @@ def plan_processes(mission: Mission, options: ProcessOptions) -> tuple[ProcessPl
         last = min(first + options.per_process, mission.agents.count) - 1
         uids = str(first) if first == last else f"{first}-{last}"
         name = f"agent {uids}" if first == last else f"agents {uids}"
-        identity, words = agents_name((first, last)), ("agent", *connect, *unsecured, "--leash", "--id", uids)
+        identity, words = agents_name((first, last)), ("agent", *connect, *logged, *unsecured, "--leash", "--id", uids)
         plans.append(ProcessPlan(name=name, identity=identity, words=words, restarts=options.restarts))
     if recorder:
         words = ("record", *connect, *recorder)

@@ -19,6 +19,7 @@ from missions.mission import Mission
 from missions.options import Board, LaunchOptions, speed_of
 from missions.outlet import outlet_console
 from missions.problems import InputError
+from missions.tlog import tlogs
 
 MAX_AGENTS = 250  # a MAVLink system id is one byte
 
@@ -71,6 +72,7 @@ def _alone(mission: Mission, uids: Sequence[int], options: argparse.Namespace) -
         log_level=Level(options.log_level),
         leash=options.leash,
         credentials=credentials_of(options.keys, agents_name(uids)),
+        tlog=options.tlog,
     )
     if daemon.credentials is not None:
         check_complete(daemon.credentials.of_radio)
@@ -94,14 +96,20 @@ def launch(mission: Mission, options: argparse.Namespace) -> int:
     for option, given in (
         ("--gcs", options.gcs),
         ("--gcs-signing-key", options.gcs_signing_key),
-        ("--tlog", options.tlog),
     ):
         if given:
-            raise InputError(f"{option}: not with --processes; allowed: --record, --view, --web")
+            raise InputError(
+                f"{option}: not with --processes, where each vehicle is in another process; allowed: a launch without "
+                "it, or --tlog, --record, --view, --web"
+            )
     from missions.daemons.launcher import run_processes
 
     endpoint = options.listen or ENDPOINT
-    return run_processes(processes(mission, options), endpoint=endpoint, console=outlet_console(stderr=True))
+    plans = processes(mission, options)
+    if options.tlog is not None:
+        with tlogs(options.tlog, range(mission.agents.count), began_unix_s=None):
+            pass  # they can be written, and are empty: agents add to them, those that come back, too
+    return run_processes(plans, endpoint=endpoint, console=outlet_console(stderr=True))
 
 
 def board(options: argparse.Namespace, *, speed: float) -> Board | None:
@@ -163,6 +171,7 @@ def processes(mission: Mission, options: argparse.Namespace) -> tuple[ProcessPla
         speed=None if speed is None else "max" if isinf(speed) else f"{speed}",
         report=given.get("report"),
         record=given.get("record"),
+        tlog=given.get("tlog"),
         views=tuple(f"--{name}" for name in ("view", "web") if given.get(name)),
         per_process=options.processes,
         restarts=options.restarts,
@@ -249,4 +258,5 @@ def _daemon(options: argparse.Namespace, speed: float, name: str) -> DaemonOptio
         log_level=Level(options.log_level),
         leash=options.leash,
         credentials=credentials_of(options.keys, name),
+        tlog=vars(options).get("tlog"),
     )

@@ -10,6 +10,7 @@ from threading import Event, Thread
 from time import time
 
 import pytest
+from pymavlink import mavutil
 
 from comms.access import Gate, Place
 from comms.credentials import OPERATOR, Credentials
@@ -18,6 +19,7 @@ from comms.session import Network, open_client, open_router
 from missions.cli import main
 from missions.daemons.fleet import FleetOptions, ask
 from missions.daemons.orders import Answer, Verb
+from missions.tlog import log_of
 from tests.missions.daemons.swarm import free_endpoint, swarm
 from tests.patience import PATIENCE_S, until
 
@@ -50,14 +52,14 @@ def told(bus: Network, verb: Verb) -> Answer:
     return answer
 
 
-def test_two_agents_fly_a_mission_of_their_own() -> None:
+def test_two_agents_fly_a_mission_of_their_own(tmp_path: Path) -> None:
     radios = f"radio.endpoints=[{free_endpoint()}, {free_endpoint()}]"
     changes = [word for text in (*LOW, radios) for word in ("--set", text)]
     with ExitStack() as stack:
         agents, boards = [], []
         for uid in range(2):
             board = free_endpoint()
-            words = ("agent", "quickstart", *changes, "--id", str(uid), "--alone", board)
+            words = ("agent", "quickstart", *changes, "--id", str(uid), "--alone", board, "--tlog", str(tmp_path))
             agents.append(stack.enter_context(swarm(*words)))
             agents[uid].wait_for("waits on the ground for resume")
             boards.append(stack.enter_context(open_client(board, lossless=True, patience_s=PATIENCE_S)))
@@ -81,6 +83,10 @@ def test_two_agents_fly_a_mission_of_their_own() -> None:
         for agent in agents:
             assert agent.wait() == 0, agent.output
             assert "landed and disarmed" in agent.output
+    for uid in range(2):
+        log = mavutil.mavlink_connection(str(log_of(tmp_path, uid)))
+        heard = log.recv_match(type="HEARTBEAT")
+        assert abs(heard._timestamp - time()) < 3 * PATIENCE_S  # of the clock on the wall, as the mission is
 
 
 @pytest.mark.parametrize("asked", ["before it has begun", "by a person"])

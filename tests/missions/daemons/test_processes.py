@@ -15,6 +15,7 @@ from missions.daemons.crew import TAKEN
 from missions.daemons.feed import UNAWAITED
 from missions.daemons.options import fingerprint
 from missions.load import load_mission
+from missions.tlog import log_of
 from tests.missions.daemons.swarm import (
     COMMAND,
     FOR_EVER_S,
@@ -65,11 +66,25 @@ def test_many_processes_decide_what_one_does(tmp_path: Path, changes: tuple[str,
     one, many = tmp_path / "one.json", tmp_path / "many.json"
     mission = ("launch", "quickstart", *SMALL, "--duration", "20", *changes)
     processes = ("--processes", str(per_process), "--listen", free_endpoint())
-    for words in (("--report", str(one)), ("--report", str(many), *processes)):
-        with swarm(*mission, *words) as run:
+    for file, words in ((one, ()), (many, processes)):
+        with swarm(*mission, "--report", str(file), "--tlog", str(file.with_suffix("")), *words) as run:
             assert run.wait() == 0, run.output
     assert decided(one) == decided(many)
+    for uid in range(3):
+        logs = [frames_of(log_of(file.with_suffix(""), uid)) for file in (one, many)]
+        assert logs[0] == logs[1]
+        assert len(logs[0]) > 100
     assert report_of(many)["radio"]["delivered"] > 0
+
+
+def frames_of(log: Path) -> list[bytes]:
+    """The frames of a telemetry log, without the times in front of them: eight bytes each, of MAVLink 2."""
+    data, found, at = log.read_bytes(), [], 0
+    while at < len(data):
+        size = 12 + data[at + 9] + (13 if data[at + 10] & 1 else 0)  # a signature is 13 bytes
+        found.append(data[at + 8 : at + 8 + size])
+        at += 8 + size
+    return found
 
 
 @pytest.mark.slow
