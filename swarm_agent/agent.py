@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import compress, count
 from math import floor
 from typing import NamedTuple
 
@@ -21,7 +20,7 @@ from comms.messages import Frame, Sighting
 from comms.signing import Signing
 from comms.status import Activity, AgentStatus, HelpCallStatus
 from swarm_agent.autopilot import Fly, Intent, Land, Phase, Pilot, PilotConfig, PilotState, Prepare, Return
-from swarm_agent.bcmommt.belief import NOBODY, Table, begin_tick, cell_columns, cell_rows, new_table, see
+from swarm_agent.bcmommt.belief import NOBODY, Table, begin_tick, cell_columns, cell_rows, forget, new_table, see
 from swarm_agent.bcmommt.modes import Mode
 from swarm_agent.bcmommt.params import Explore, Params
 from swarm_agent.bcmommt.speech import answers_said, calls_said, hear, tags_said
@@ -179,6 +178,7 @@ class Agent:
     ) -> None:
         table = self._table
         begin_tick(table)
+        forget(table, self._config.params, now_s)
         hear(table, self._config.params, inbox)
         for target, x, y in sightings:
             see(table, self._config.params, target, x, y, me[0], me[1], now_s)
@@ -240,7 +240,7 @@ class Agent:
             velocity_m_s=state.velocity_m_s,
             heading_rad=state.heading_rad,
             battery=state.battery,
-            tags=tuple(compress(count(), self._table.tagged)),
+            tags=tuple([j for j in self._table.known if self._table.tagged[j]]),
             calls=calls,
             helping=None if self._mind.helping == NOBODY else self._mind.helping,
             mates=tuple([frame.src for frame in inbox]),
@@ -254,7 +254,8 @@ class Agent:
                 HelpCallStatus(j, min(table.loss_in_s[j], horizon_s), table.loss_in_s[j] <= horizon_s)
                 if table.tagged[j]
                 else HelpCallStatus(j, 0.0)
-                for j in compress(count(), table.calling)
+                for j in table.known
+                if table.calling[j]
             ]
         )
 

@@ -24,8 +24,8 @@ class Farewell:
     """
 
     def __init__(self, table: Table) -> None:
-        self.targets = {j for j, tagged in enumerate(table.tagged) if tagged or table.calling[j]}
-        self._left = [f"T{j}" for j, tagged in enumerate(table.tagged) if tagged]
+        self.targets = {j for j in table.known if table.tagged[j] or table.calling[j]}
+        self._left = [f"T{j}" for j in table.known if table.tagged[j]]
 
     @property
     def over(self) -> bool:
@@ -40,7 +40,7 @@ class Farewell:
             for j in self.targets
             if not owned_by_mate(table, params, j, now_s) and now_s - table.known_at_s[j] <= worth_s
         }
-        for j in range(len(table.tagged)):
+        for j in table.known:
             table.tagged[j] = False
             table.calling[j] = j in self.targets
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from comms.knowledge import Belief, Knowledge, Mate
 from swarm_agent.bcmommt.belief import (
     FAR,
-    NEVER,
+    SHOWN_S,
     Table,
     answered_by_mate,
     called_by_mate,
@@ -15,20 +15,17 @@ from swarm_agent.bcmommt.belief import (
 from swarm_agent.bcmommt.help import is_lost, time_until_loss
 from swarm_agent.reasons import Reasons
 
-# Nobody acts on older news, but for targets that are called for.
-LATELY_S = 30.0
-
 
 def insight(reasons: Reasons, *, wanted_m_s: tuple[float, float], mavlink: tuple[bytes, ...]) -> Knowledge:
     """The agent's knowledge after it has decided."""
     t, now = reasons.table, reasons.now_s
     return Knowledge(
-        beliefs=tuple([_belief(reasons, j) for j in range(len(t.sensed)) if _is_known(reasons, j)]),
+        beliefs=tuple([_belief(reasons, j) for j in t.known if _is_shown(reasons, j)]),
         mates=tuple(
             [
-                Mate(mate, (t.mate_x_m[mate], t.mate_y_m[mate]), now - at)
-                for mate, at in enumerate(t.mate_at_s)
-                if now - at <= LATELY_S
+                Mate(mate, (t.mate_x_m[mate], t.mate_y_m[mate]), now - t.mate_at_s[mate])
+                for mate in t.mates
+                if now - t.mate_at_s[mate] <= SHOWN_S
             ]
         ),
         wanted_m_s=wanted_m_s,
@@ -37,9 +34,9 @@ def insight(reasons: Reasons, *, wanted_m_s: tuple[float, float], mavlink: tuple
     )
 
 
-def _is_known(reasons: Reasons, j: int) -> bool:
+def _is_shown(reasons: Reasons, j: int) -> bool:
     t, now = reasons.table, reasons.now_s
-    return t.known_at_s[j] > NEVER and (now - t.known_at_s[j] <= LATELY_S or _is_called(reasons, j))
+    return now - t.known_at_s[j] <= SHOWN_S or _is_called(reasons, j)
 
 
 def _is_called(reasons: Reasons, j: int) -> bool:

@@ -51,7 +51,7 @@ class Reasons(NamedTuple):
     def not_helping(self, j: int) -> str:
         """Why it does not (or no longer) go to help with target j."""
         t, p, now = self.table, self.params, self.now_s
-        mine = [f"T{k}" for k, tagged in enumerate(t.tagged) if tagged]
+        mine = [f"T{k}" for k in t.known if t.tagged[k]]
         if mine:
             return f"it follows {_listed(mine)}"
         if owned_by_mate(t, p, j, now) and t.owner[j] != t.caller[j]:
@@ -75,13 +75,13 @@ class Reasons(NamedTuple):
         """Where a target was when it got lost."""
         t, p = self.table, self.params
         away = hypot(t.x_m[j] - self.x_m, t.y_m[j] - self.y_m)
-        others = [f"T{k}" for k, mine in enumerate(t.tagged) if mine]
+        others = [f"T{k}" for k in t.known if t.tagged[k]]
         busy = f" while it followed {_listed(others)}" if others else ""
         return f"last seen {away:.1f} m away, of {p.sensing_range_m:.1f} m in sight{busy}"
 
     def _follows(self) -> str:
         t = self.table
-        mine = [j for j, tagged in enumerate(t.tagged) if tagged]
+        mine = [j for j in t.known if t.tagged[j]]
         text = f"stays amid {_listed([f'T{j}' for j in mine])}" if len(mine) > 1 else f"follows T{mine[0]}"
         leaving = [f"T{j} in {t.loss_in_s[j]:.0f} s" for j in mine if t.calling[j] and t.loss_in_s[j] < FAR]
         if leaving:
@@ -100,7 +100,7 @@ class Reasons(NamedTuple):
             text = "searches the ground that nobody has seen for longest"
         else:
             text = "searches, straight ahead until the edge or a mate turns it"
-        calls = [j for j in range(len(self.table.caller)) if called_by_mate(self.table, p, j, self.now_s)]
+        calls = [j for j in self.table.known if called_by_mate(self.table, p, j, self.now_s)]
         if not calls:
             return f"{text}; it hears no call for help"
         told = [f"T{j} ({self.not_helping(j)})" for j in calls[:_TOLD_CALLS]]

@@ -44,7 +44,7 @@ def follow(t: Table, p: Params, me_x: float, me_y: float) -> tuple[float, float]
     """
     x = y = vx = vy = 0.0
     n = 0
-    for j in range(len(t.tagged)):
+    for j in t.known:
         if t.tagged[j]:
             x += t.x_m[j]
             y += t.y_m[j]
@@ -91,7 +91,7 @@ def walk(
     hx = heading_x - turn * heading_y
     hy = heading_y + turn * heading_x
     push = REPULSION_PER_S * p.tick_s
-    for mate in range(len(t.mate_at_s)):
+    for mate in t.mates:
         if now - t.mate_at_s[mate] <= MATE_FADES_S:
             dx, dy = me_x - t.mate_x_m[mate], me_y - t.mate_y_m[mate]
             distance = sqrt(dx * dx + dy * dy)
@@ -127,7 +127,7 @@ def stalest_cell(t: Table, p: Params, me_x: float, me_y: float, now: float) -> i
 
 
 def _mate_is_nearer(t: Table, x: float, y: float, mine2: float, now: float) -> bool:
-    for mate in range(len(t.mate_at_s)):
+    for mate in t.mates:
         if now - t.mate_at_s[mate] <= MATE_FADES_S:
             dx, dy = x - t.mate_x_m[mate], y - t.mate_y_m[mate]
             if dx * dx + dy * dy < mine2:
@@ -138,7 +138,7 @@ def _mate_is_nearer(t: Table, x: float, y: float, mine2: float, now: float) -> b
 def look_around(t: Table, p: Params, me_x: float, me_y: float, now: float) -> None:
     """Note what is seen now: by me, and by the mates heard of lately, for the stale-first search."""
     see_cells(t, p, me_x, me_y, now)
-    for mate in range(len(t.mate_at_s)):
+    for mate in t.mates:
         if now - t.mate_at_s[mate] <= MATE_FADES_S:
             see_cells(t, p, t.mate_x_m[mate], t.mate_y_m[mate], t.mate_at_s[mate])
 

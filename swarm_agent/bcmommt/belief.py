@@ -6,6 +6,7 @@ in a tick is computed from this table, the parameters, and passed-in chance.
 
 from __future__ import annotations
 
+from bisect import insort
 from math import ceil, floor, sqrt
 from typing import Any, NamedTuple
 
@@ -22,7 +23,11 @@ MAX_DIFFERENCE_S = 0.5
 # Nor is it if the target would have been faster than this: then it was misplaced, or mistaken for another.
 JUMP_M_S = 100.0
 
+# What is older than all that holds by the mission's own spans is still shown to people for a while.
+SHOWN_S = 30.0
+
 Column = Any  # a list of numbers in flight, a numpy array in a study
+Rows = Any  # a list of numbers in flight, a range in a study
 
 
 class Table(NamedTuple):
@@ -32,7 +37,13 @@ class Table(NamedTuple):
     not sensed); own tag and call with the predicted time of loss; the best tag, the call and the answer heard of it,
     each with its speaker (NOBODY if none) and instant; and since when it is lost to this agent, its last owner.
     Per mate: position and instant of the last frame. Per cell: when it was last seen by anybody known of.
+
+    The rules look at no rows but those of `known`, targets whose place is known, and of `mates`, who were heard; both in
+    order. So what an agent costs grows with its neighbors, not with the mission. A study looks at all rows.
     """
+
+    known: Rows
+    mates: Rows
 
     sensed: Column
     x_m: Column
@@ -65,6 +76,8 @@ def new_table(n_targets: int, n_agents: int, n_cells: int) -> Table:
     """An agent that knows nothing yet, with list columns."""
     n = n_targets
     return Table(
+        known=[],
+        mates=[],
         sensed=[False] * n,
         x_m=[0.0] * n,
         y_m=[0.0] * n,
@@ -93,9 +106,29 @@ def new_table(n_targets: int, n_agents: int, n_cells: int) -> Table:
     )
 
 
+def enter(rows: Rows, row: int) -> None:
+    """Add a row to those that are looked at. A study looks at all of them: there this compiles to nothing."""
+    insort(rows, row)
+
+
+def forget(t: Table, p: Params, now: float) -> None:
+    """Take out the rows in which nothing can hold any more: the rules need not look at them.
+
+    Whatever is said of a target rests on a place not older than `memory_s`, and holds for less than all these spans
+    together. So this changes no decision, and a study does without.
+    """
+    before = now - (p.memory_s + p.horizon_s + p.tag_lease_s + p.help_lease_s + SHOWN_S)
+    for j in [j for j in t.known if t.known_at_s[j] < before]:
+        t.known.remove(j)
+        t.known_at_s[j] = NEVER
+    for mate in [mate for mate in t.mates if t.mate_at_s[mate] < before]:
+        t.mates.remove(mate)
+        t.mate_at_s[mate] = NEVER
+
+
 def begin_tick(t: Table) -> None:
     """Forget what was sensed one tick ago, but for the distances: they are what mates will compare theirs with."""
-    for j in range(len(t.sensed)):
+    for j in t.known:
         t.distance_before_m[j] = t.distance_m[j]
         t.distance_m[j] = FAR
         t.sensed[j] = False
@@ -107,6 +140,8 @@ def see(t: Table, p: Params, j: int, x: float, y: float, me_x: float, me_y: floa
     Of several sightings of j in one tick (mistaken names) the last one's place counts, and the first one's velocity.
     """
     age = now - t.known_at_s[j]
+    if t.known_at_s[j] == NEVER:
+        enter(t.known, j)
     if age > 0.0:
         vx, vy = (x - t.x_m[j]) / age, (y - t.y_m[j]) / age
         if age > max(MAX_DIFFERENCE_S, 2.0 * p.tick_s) or vx * vx + vy * vy > JUMP_M_S * JUMP_M_S:
@@ -124,6 +159,8 @@ def see(t: Table, p: Params, j: int, x: float, y: float, me_x: float, me_y: floa
 
 def hear_mate(t: Table, mate: int, x: float, y: float, at: float) -> None:
     """A frame of `mate`, sent from (x, y) at `at`. It is whole: what it does not repeat is withdrawn (see `alive`)."""
+    if t.mate_at_s[mate] == NEVER:
+        enter(t.mates, mate)
     t.mate_x_m[mate] = x
     t.mate_y_m[mate] = y
     t.mate_at_s[mate] = at
@@ -132,6 +169,8 @@ def hear_mate(t: Table, mate: int, x: float, y: float, at: float) -> None:
 def hear_position(t: Table, j: int, x: float, y: float, vx: float, vy: float, at: float) -> None:
     """Somebody saw target j at (x, y) at the instant `at`."""
     if at > t.known_at_s[j]:
+        if t.known_at_s[j] == NEVER:
+            enter(t.known, j)
         t.x_m[j] = x
         t.y_m[j] = y
         t.vx_m_s[j] = vx

@@ -24,7 +24,7 @@ from swarm_agent.bcmommt.tags import nearest_tag
 def issue_calls(t: Table, p: Params, now: float) -> None:
     """Fill `t.calling`: the tags for which help is called, and the targets lost. Never the nearest tag: it is safe."""
     safe = nearest_tag(t)
-    for j in range(len(t.tagged)):
+    for j in t.known:
         if not t.tagged[j] and t.lost_at_s[j] == NEVER:
             t.calling[j] = False  # neither mine nor missed: most targets, most of the time
             continue
@@ -38,7 +38,7 @@ def remember_losses(t: Table, p: Params, me_x: float, me_y: float, now: float) -
     PAPER: the text forgets a target the moment it is out of range. Ours stays a call at its predicted position. With
     `memory_s` 0 this does nothing. To be called before `claim_tags`: it reads the tags of one tick ago.
     """
-    for j in range(len(t.tagged)):
+    for j in t.known:
         if not t.tagged[j] and t.lost_at_s[j] == NEVER:
             continue  # neither mine nor missed
         if t.sensed[j] or owned_by_mate(t, p, j, now):
@@ -108,7 +108,7 @@ def choose(
     if p.answering == Answering.OPTIMAL:
         return NOBODY, FAR  # not mine to choose
     best, best_capture, best_distance, best_unanswered = NOBODY, FAR, FAR, False
-    for j in range(len(t.caller)):
+    for j in t.known:
         if t.caller[j] == NOBODY and t.lost_at_s[j] == NEVER:
             continue  # nobody has called for it: most targets, most of the time
         if not is_called(t, p, j, me_x, me_y, now):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import sqrt
 
-from swarm_agent.bcmommt.belief import FAR, Table
+from swarm_agent.bcmommt.belief import FAR, NOBODY, Table
 from swarm_agent.bcmommt.net import TAUGHT_S, forward, pair_inputs, triple_inputs
 from swarm_agent.bcmommt.params import Params, Predictor
 
@@ -17,7 +17,7 @@ def predict_losses(t: Table, p: Params, n_tags: int) -> None:
     if p.predictor == Predictor.PERFECT and n_tags >= 2:
         _keep_foreseen(t, p)
         return
-    for j in range(len(t.tagged)):
+    for j in t.known:
         t.loss_in_s[j] = FAR
     if n_tags < 2:
         return
@@ -29,20 +29,20 @@ def predict_losses(t: Table, p: Params, n_tags: int) -> None:
 
 def _keep_foreseen(t: Table, p: Params) -> None:
     """What the column holds is true; left of it are the losses of tags within the horizon."""
-    for j in range(len(t.tagged)):
+    for j in t.known:
         if not t.tagged[j] or t.loss_in_s[j] > p.horizon_s:
             t.loss_in_s[j] = FAR
 
 
 def _predict_learned(t: Table, p: Params, n_tags: int) -> None:
     """The net for two or three tags says when the first of them is lost: the same time for all, as in Algorithm 1."""
-    a = _tag_from(t, 0)
-    b = _tag_from(t, a + 1)
+    a = _tag_after(t, NOBODY)
+    b = _tag_after(t, a)
     if n_tags == 2:
         pair = pair_inputs(t.distance_m[a], t.distance_m[b], _gap(t, a, b), p.sensing_range_m)
         after = forward(p.pair_net, pair) * TAUGHT_S
     else:
-        c = _tag_from(t, b + 1)
+        c = _tag_after(t, b)
         triple = triple_inputs(
             t.distance_m[a],
             t.distance_m[b],
@@ -54,17 +54,18 @@ def _predict_learned(t: Table, p: Params, n_tags: int) -> None:
         )
         after = forward(p.triple_net, triple) * TAUGHT_S
     if after <= p.horizon_s:
-        for j in range(len(t.tagged)):
+        for j in t.known:
             if t.tagged[j]:
                 t.loss_in_s[j] = after
 
 
-def _tag_from(t: Table, start: int) -> int:
-    """The first tagged target from `start` on; there is one."""
-    j = start
-    while not t.tagged[j]:
-        j += 1
-    return j
+def _tag_after(t: Table, last: int) -> int:
+    """The next tagged target after `last`; NOBODY before the first, and if there is none."""
+    for j in t.known:
+        if j > last and t.tagged[j]:
+            tag: int = j
+            return tag
+    return NOBODY
 
 
 def _gap(t: Table, a: int, b: int) -> float:
@@ -79,14 +80,14 @@ def _predict_direct(t: Table, p: Params, n_tags: int) -> None:
     PAPER: eq. 10 prints o_j without its own motion. Both the center and o_j move, so the relative motion counts.
     """
     cx = cy = cvx = cvy = 0.0
-    for j in range(len(t.tagged)):
+    for j in t.known:
         if t.tagged[j]:
             cx += t.x_m[j]
             cy += t.y_m[j]
             cvx += t.vx_m_s[j]
             cvy += t.vy_m_s[j]
     cx, cy, cvx, cvy = cx / n_tags, cy / n_tags, cvx / n_tags, cvy / n_tags
-    for j in range(len(t.tagged)):
+    for j in t.known:
         if t.tagged[j]:
             after = time_to_leave(t.x_m[j] - cx, t.y_m[j] - cy, t.vx_m_s[j] - cvx, t.vy_m_s[j] - cvy, p.sensing_range_m)
             if after <= p.horizon_s:

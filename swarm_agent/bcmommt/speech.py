@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import compress, count, islice
+from itertools import islice
 
 from comms.messages import MAX_CALLS, MAX_TAGS, Answer, Frame, HelpCall, Tag
 from swarm_agent.bcmommt.belief import NOBODY, Table, hear_answer, hear_call, hear_mate, hear_position, hear_tag
@@ -41,13 +41,13 @@ def _hear_one(t: Table, p: Params, frame: Frame) -> None:
 
 def tags_said(t: Table) -> tuple[Tag, ...]:
     """The tags to broadcast. What does not fit into a frame is free for others to claim."""
-    mine = list(islice(compress(count(), t.tagged), MAX_TAGS))
+    mine = list(islice((j for j in t.known if t.tagged[j]), MAX_TAGS))
     return tuple([Tag(j, t.x_m[j], t.y_m[j], t.vx_m_s[j], t.vy_m_s[j], t.distance_m[j]) for j in mine])
 
 
 def calls_said(t: Table, p: Params, now: float) -> tuple[HelpCall, ...]:
     """The help calls to broadcast; a target lost already is lost in 0 s."""
-    mine = list(islice(compress(count(), t.calling), MAX_CALLS))
+    mine = list(islice((j for j in t.known if t.calling[j]), MAX_CALLS))
     return tuple(
         [
             HelpCall(j, t.x_m[j], t.y_m[j], t.vx_m_s[j], t.vy_m_s[j], _loss_in(t, p, j), now - t.known_at_s[j])

@@ -13,7 +13,7 @@ def claim_tags(t: Table, p: Params, me: int, helping: int, now: float) -> int:
         helping: the target of the call that `me` is on its way to, or NOBODY.
     """
     count = 0
-    for j in range(len(t.sensed)):
+    for j in t.known:
         t.tagged[j] = t.sensed[j] and may_tag(t, p, j, helping, now) and not yields(t, p, j, me, now)
         if t.tagged[j]:
             count += 1
@@ -26,7 +26,7 @@ def tag_all_sensed(t: Table) -> int:
     A tag then only tells the mates which targets are observed, and where.
     """
     count = 0
-    for j in range(len(t.sensed)):
+    for j in t.known:
         t.tagged[j] = t.sensed[j]
         t.calling[j] = False
         t.loss_in_s[j] = FAR
@@ -70,7 +70,7 @@ def may_tag(t: Table, p: Params, j: int, helping: int, now: float) -> bool:
 def nearest_tag(t: Table) -> int:
     """The tagged target nearest to the agent, NOBODY if there is none (equal distances: the lower target)."""
     best = NOBODY
-    for j in range(len(t.tagged)):
+    for j in t.known:
         if t.tagged[j] and (best == NOBODY or t.distance_m[j] < t.distance_m[best]):
             best = j
     return best

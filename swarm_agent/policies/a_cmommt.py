@@ -54,7 +54,7 @@ def target_force(t: Table, p: Params, me_x: float, me_y: float, now: float) -> t
     """The first sum of eq. 2: targets in sight and in predictive tracking; those that a mate observes count less."""
     n = 0
     fx = fy = 0.0
-    for j in range(len(t.sensed)):
+    for j in t.known:
         if t.sensed[j] or in_predictive_tracking(t, p, j, me_x, me_y, now):
             n += 1
             x, y = predicted_place(t, p, j, now)
@@ -71,7 +71,7 @@ def target_force(t: Table, p: Params, me_x: float, me_y: float, now: float) -> t
 def mate_force(t: Table, p: Params, me_x: float, me_y: float, now: float) -> tuple[float, float]:
     """The second sum of eq. 2: away from mates heard of lately."""
     fx = fy = 0.0
-    for mate in range(len(t.mate_at_s)):
+    for mate in t.mates:
         if now - t.mate_at_s[mate] <= MATE_FADES_S:
             dx, dy = t.mate_x_m[mate] - me_x, t.mate_y_m[mate] - me_y
             distance = sqrt(dx * dx + dy * dy)

@@ -46,7 +46,7 @@ def issue_calls(t: Table, p: Params, me_x: float, me_y: float, now: float) -> No
 
     To be called before `claim_tags`: it reads the tags of one tick ago.
     """
-    for j in range(len(t.tagged)):
+    for j in t.known:
         if t.sensed[j] or owned_by_mate(t, p, j, now):
             t.lost_at_s[j] = NEVER
         elif t.tagged[j]:
@@ -62,7 +62,7 @@ def own_loss(t: Table, p: Params, me_x: float, me_y: float, now: float) -> int:
     first, by predictive tracking: it is the nearest to help.
     """
     best, best_distance = NOBODY, FAR
-    for j in range(len(t.calling)):
+    for j in t.known:
         if t.calling[j]:
             distance = predicted_distance(t, p, j, me_x, me_y, now)
             if distance < best_distance:
@@ -76,7 +76,7 @@ def nearest_caller(t: Table, p: Params, me_x: float, me_y: float, now: float) ->
     PAPER: of several callers the text names none. Every helper goes, however many others do.
     """
     best, best_distance = NOBODY, FAR
-    for j in range(len(t.caller)):
+    for j in t.known:
         if called_by_mate(t, p, j, now):
             dx, dy = t.mate_x_m[t.caller[j]] - me_x, t.mate_y_m[t.caller[j]] - me_y
             distance = sqrt(dx * dx + dy * dy)

@@ -70,7 +70,7 @@ def targets_in(t: Table, p: Params, region: int, me_x: float, me_y: float, now: 
     """How many targets are known in a region, sensed or predicted, and their center of gravity; (0, 0, 0) if none."""
     n = 0
     sum_x = sum_y = 0.0
-    for j in range(len(t.sensed)):
+    for j in t.known:
         if t.sensed[j] or predicted_distance(t, p, j, me_x, me_y, now) < FAR:
             x, y = predicted_place(t, p, j, now)
             if region_of(p, x, y) == region:
@@ -85,7 +85,7 @@ def targets_in(t: Table, p: Params, region: int, me_x: float, me_y: float, now: 
 def mates_in(t: Table, p: Params, region: int, now: float) -> int:
     """How many mates heard of lately are in a region."""
     n = 0
-    for mate in range(len(t.mate_at_s)):
+    for mate in t.mates:
         if now - t.mate_at_s[mate] <= MATE_FADES_S and region_of(p, t.mate_x_m[mate], t.mate_y_m[mate]) == region:
             n += 1
     return n
@@ -119,7 +119,7 @@ def mate_goes(
     """Whether a mate in my region is nearer to (x, y) (equal distances: the lower id). One agent at a time leaves."""
     dx, dy = x - me_x, y - me_y
     mine2 = dx * dx + dy * dy
-    for mate in range(len(t.mate_at_s)):
+    for mate in t.mates:
         if now - t.mate_at_s[mate] <= MATE_FADES_S and region_of(p, t.mate_x_m[mate], t.mate_y_m[mate]) == here:
             dx, dy = x - t.mate_x_m[mate], y - t.mate_y_m[mate]
             theirs2 = dx * dx + dy * dy

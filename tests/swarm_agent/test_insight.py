@@ -7,11 +7,11 @@ from math import hypot
 import pytest
 
 from comms.knowledge import Belief, Knowledge
-from swarm_agent.bcmommt.belief import NOBODY, Table, hear_answer, hear_position
+from swarm_agent.bcmommt.belief import NOBODY, SHOWN_S, Table, hear_answer, hear_position
 from swarm_agent.bcmommt.modes import Mode
 from swarm_agent.bcmommt.params import Gate, Params
 from swarm_agent.bcmommt.step import Mind, decide, new_mind
-from swarm_agent.insight import LATELY_S, insight
+from swarm_agent.insight import insight
 from swarm_agent.reasons import Reasons
 from tests.swarm_agent.bcmommt.scene import LAST_TICK, NOW, PAPER_WORLD, call, claim, params, sense, table
 
@@ -59,7 +59,7 @@ def test_a_moving_target_is_believed_where_it_went() -> None:
     assert belief(known, 1).place_m == pytest.approx((5.0, -0.5))
 
 
-@pytest.mark.parametrize(("age_s", "told"), [(LATELY_S - 0.1, True), (LATELY_S + 0.1, False)])
+@pytest.mark.parametrize(("age_s", "told"), [(SHOWN_S - 0.1, True), (SHOWN_S + 0.1, False)])
 def test_old_news_is_not_told(age_s: float, told: bool) -> None:
     t = table()
     hear_position(t, 1, 4.0, 0.0, 0.0, 0.0, NOW - age_s)

@@ -8,8 +8,11 @@ from swarm_agent.bcmommt.belief import Table
 
 @inlined
 def row(t: Table, i: int) -> Table:
-    """Agent i's table: one row of every column."""
+    """Agent i's table: one row of every column. Its rules look at all targets and mates, known or not."""
+    m, n = t.sensed.shape
     return Table(
+        range(n),
+        range(m),
         t.sensed[i],
         t.x_m[i],
         t.y_m[i],

@@ -14,7 +14,7 @@ from types import ModuleType
 from typing import Any, TypeVar
 
 import numba
-from numba.extending import register_jitable
+from numba.extending import overload, register_jitable
 
 import comms.arena
 import comms.chance
@@ -38,6 +38,7 @@ import swarm_agent.policies.regions
 import vehicle_sim.sensing
 import vehicle_sim.targets
 from missions.study.sources import sources_digest
+from swarm_agent.bcmommt.belief import enter
 
 RULES: tuple[ModuleType, ...] = (
     comms.arena,
@@ -105,8 +106,18 @@ def compiled(loop: Rule) -> Rule:
 def _register(modules: tuple[ModuleType, ...]) -> None:
     for module in modules:
         for _, rule in inspect.getmembers(module, inspect.isfunction):
-            if rule.__module__ == module.__name__:
+            if rule.__module__ == module.__name__ and rule is not enter:
                 register_jitable(**OPTIONS)(rule)
+
+
+@overload(enter, jit_options=OPTIONS)
+def _nothing_to_enter(rows: Any, row: Any) -> Callable[..., None]:
+    """A study looks at all rows anyway: columns side by side are faster than a list of those that matter."""
+
+    def nothing(rows: Any, row: Any) -> None:
+        return None
+
+    return nothing
 
 
 _register(RULES)

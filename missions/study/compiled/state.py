@@ -202,6 +202,8 @@ def new_tables(m: int, n: int, cells: int) -> Table:
         return np.full((m, n), value, dtype)
 
     return Table(
+        known=(),
+        mates=(),
         sensed=per_target(False, np.bool_),
         x_m=per_target(0.0),
         y_m=per_target(0.0),

@@ -43,11 +43,10 @@ def table(n_targets: int = 4, n_agents: int = 5, n_cells: int = 0) -> Table:
 
 def sense(t: Table, j: int, x: float, y: float, vx: float = 0.0, vy: float = 0.0) -> None:
     """Target j has been in sight of an agent at the origin for two ticks, moving at (vx, vy)."""
-    known, t.known_at_s[j] = t.known_at_s[j], LAST_TICK
-    t.x_m[j], t.y_m[j] = x - 0.1 * vx, y - 0.1 * vy
+    assert t.known_at_s[j] <= LAST_TICK
+    see(t, PAPER_WORLD, j, x - 0.1 * vx, y - 0.1 * vy, 0.0, 0.0, LAST_TICK)
     see(t, PAPER_WORLD, j, x, y, 0.0, 0.0, NOW)
     t.distance_before_m[j] = t.distance_m[j]
-    assert known <= LAST_TICK
 
 
 def claim(t: Table, j: int, mate: int, distance: float, at: float = LAST_TICK) -> None:

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from comms.messages import Answer, Frame, HelpCall, Tag
-from swarm_agent.bcmommt.belief import NOBODY, Table, begin_tick, cell_columns, cell_rows, new_table, see
+from swarm_agent.bcmommt.belief import NOBODY, Table, begin_tick, cell_columns, cell_rows, hear_mate, new_table, see
 from swarm_agent.bcmommt.modes import Mode
 from swarm_agent.bcmommt.params import Call, Capture, Explore, Gate, Params
 from swarm_agent.bcmommt.speech import answers_said, calls_said, hear, tags_said
@@ -82,7 +82,7 @@ def test_with_nothing_to_do_it_explores_at_full_speed_away_from_mates() -> None:
     t = table()
     mind, heading_x = new_mind(0.0, 1.0), 0.0
     for tick in range(100):
-        t.mate_x_m[0], t.mate_y_m[0], t.mate_at_s[0] = 2.0, 0.0, NOW
+        hear_mate(t, 0, 2.0, 0.0, NOW)
         mind, vx, vy = act(t, P, mind, tick)
         assert mind.mode is Mode.EXPLORE
         assert hypot(vx, vy) == pytest.approx(0.4)
@@ -93,7 +93,7 @@ def test_with_nothing_to_do_it_explores_at_full_speed_away_from_mates() -> None:
 def test_stale_first_flies_to_the_near_unseen_and_leaves_a_mate_its_side() -> None:
     p = params(explore=Explore.STALE_FIRST)
     t = table(n_cells=cell_columns(p) * cell_rows(p))
-    t.mate_x_m[0], t.mate_y_m[0], t.mate_at_s[0] = -2.0, 0.0, NOW
+    hear_mate(t, 0, -2.0, 0.0, NOW)
     mind, vx, _ = act(t, p)
     assert vx > 0.0
     assert mind.goal != NOBODY

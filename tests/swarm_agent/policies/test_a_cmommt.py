@@ -6,7 +6,7 @@ from math import hypot
 
 import pytest
 
-from swarm_agent.bcmommt.belief import NOBODY, Table, hear_position
+from swarm_agent.bcmommt.belief import NOBODY, Table, hear_mate, hear_position
 from swarm_agent.bcmommt.modes import Mode
 from swarm_agent.bcmommt.step import Mind, new_mind
 from swarm_agent.policies.a_cmommt import decide, force, mate_force, target_force
@@ -21,7 +21,7 @@ def act(t: Table, standoff_m: float = 0.0) -> tuple[Mind, float, float]:
 
 
 def mate_at(t: Table, mate: int, x: float, y: float, age: float = 0.1) -> None:
-    t.mate_x_m[mate], t.mate_y_m[mate], t.mate_at_s[mate] = x, y, NOW - age
+    hear_mate(t, mate, x, y, NOW - age)
 
 
 def test_targets_draw_by_direction_and_profile() -> None:

@@ -9,7 +9,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from comms.arena import disc, rectangle
-from swarm_agent.bcmommt.belief import Table, hear_position
+from swarm_agent.bcmommt.belief import Table, hear_mate, hear_position
 from swarm_agent.bcmommt.modes import Mode
 from swarm_agent.bcmommt.step import Mind, new_mind
 from swarm_agent.policies.regions import columns_of, decide, mates_in, most_urgent, region_of, rows_of, targets_in
@@ -29,7 +29,7 @@ def known(t: Table, j: int, x: float, y: float) -> None:
 
 
 def mate_at(t: Table, mate: int, x: float, y: float, age: float = 0.1) -> None:
-    t.mate_x_m[mate], t.mate_y_m[mate], t.mate_at_s[mate] = x, y, NOW - age
+    hear_mate(t, mate, x, y, NOW - age)
 
 
 def see_around(t: Table, x: float, y: float) -> None:
