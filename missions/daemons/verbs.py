@@ -16,12 +16,11 @@ from missions.daemons.radios import own_endpoint
 from missions.daemons.security import check_all_known, check_complete, check_listening, credentials_of, endpoint_of
 from missions.load import load_mission
 from missions.mission import Mission
+from missions.mission.agents import MOST_AGENTS
 from missions.options import Board, LaunchOptions, speed_of
 from missions.outlet import outlet_console
 from missions.problems import InputError
 from missions.tlog import tlogs
-
-MAX_AGENTS = 250  # a MAVLink system id is one byte
 
 
 def world(mission: Mission, options: argparse.Namespace) -> int:
@@ -235,7 +234,7 @@ def uids_of(mission: Mission, text: str) -> tuple[int, ...]:
     return whole_range(text, most=mission.agents.count - 1)
 
 
-def whole_range(text: str, *, most: int = MAX_AGENTS - 1) -> tuple[int, ...]:
+def whole_range(text: str, *, most: int = MOST_AGENTS - 1) -> tuple[int, ...]:
     """The numbers that `3`, or `0-4`, names.
 
     Raises:

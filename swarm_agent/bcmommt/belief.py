@@ -38,8 +38,8 @@ class Table(NamedTuple):
     each with its speaker (NOBODY if none) and instant; and since when it is lost to this agent, its last owner.
     Per mate: position and instant of the last frame. Per cell: when it was last seen by anybody known of.
 
-    The rules look at no rows but those of `known`, targets whose place is known, and of `mates`, who were heard; both in
-    order. So what an agent costs grows with its neighbors, not with the mission. A study looks at all rows.
+    The rules look at no rows but those of `known`, targets whose place is known, and of `mates`, who were heard, both
+    in order: what an agent costs grows with its neighbors, not with the mission. A study looks at all rows.
     """
 
     known: Rows
@@ -112,15 +112,16 @@ def enter(rows: Rows, row: int) -> None:
 
 
 def forget(t: Table, p: Params, now: float) -> None:
-    """Take out the rows in which nothing can hold any more: the rules need not look at them.
+    """Take out the rows in which nothing holds any more: the rules need not look at them. To be called in a begun tick.
 
     Whatever is said of a target rests on a place not older than `memory_s`, and holds for less than all these spans
     together. So this changes no decision, and a study does without.
     """
     before = now - (p.memory_s + p.horizon_s + p.tag_lease_s + p.help_lease_s + SHOWN_S)
     for j in [j for j in t.known if t.known_at_s[j] < before]:
-        t.known.remove(j)
-        t.known_at_s[j] = NEVER
+        if t.distance_before_m[j] == FAR and not t.calling[j]:  # else the clock has jumped, and it was mine a tick ago
+            t.known.remove(j)
+            t.known_at_s[j] = NEVER
     for mate in [mate for mate in t.mates if t.mate_at_s[mate] < before]:
         t.mates.remove(mate)
         t.mate_at_s[mate] = NEVER

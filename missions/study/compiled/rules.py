@@ -110,7 +110,7 @@ def _register(modules: tuple[ModuleType, ...]) -> None:
                 register_jitable(**OPTIONS)(rule)
 
 
-@overload(enter, jit_options=OPTIONS)
+@overload(enter, jit_options=OPTIONS)  # type: ignore[arg-type]
 def _nothing_to_enter(rows: Any, row: Any) -> Callable[..., None]:
     """A study looks at all rows anyway: columns side by side are faster than a list of those that matter."""
 
