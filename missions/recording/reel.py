@@ -7,6 +7,7 @@ differences, links and batteries as of the last full second. What an agent estim
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
 from heapq import merge
 from math import atan2
 from operator import is_, itemgetter
@@ -45,6 +46,8 @@ _ABSENT = TargetTruth(0.0, 0.0, present=False, seen=False)
 
 T = TypeVar("T")
 Links = tuple[tuple[int, int], ...]
+# Rows of an entity's components, each made a value.
+Read = Callable[[str, dict[str, pa.DataType], Callable[..., Any]], Iterator[tuple[int, Any]]]
 
 
 class Reel:
@@ -79,39 +82,52 @@ class Reel:
 
     def play(self, table: Table) -> Iterator[Observation]:
         """The ticks of the next file."""
-        self._add(table)
+        read = partial(self._read, table)
+        self._add_states(read)
+        self._add_activities(read)
+        self._add_words(read)
+        self._add_places(table)
         # The ledger is written last: whatever has its totals is whole.
-        for tick, totals in self._read(table, ledger.TOTALS, {"total": _WHOLE}, _totals):
+        for tick, totals in read(ledger.TOTALS, {"total": _WHOLE}, _totals):
             if self._last is None or tick > self._last[0]:
                 yield self._observation(tick, totals)
         self.damaged += table.damaged
 
-    def _add(self, table: Table) -> None:
+    def _add_states(self, read: Read) -> None:
+        """What holds until it changes, of all agents or targets at once."""
         n_agents, n_targets = self._facts.agents, self._facts.targets
-
-        def of_agents(row: list[T]) -> tuple[T, ...]:
-            return _as_many(row, n_agents)
-
-        def read(path: str, components: dict[str, pa.DataType], value: Callable[..., T]) -> Iterator[tuple[int, T]]:
-            return self._read(table, path, components, value)
-
-        self._phase.add(read(ledger.PHASE, {"phase": _TEXT, "mission_began_at": _WHOLE}, _phase))
-        self._late_s.add(read("/telemetry/tick_late", {"Scalars:scalars": _REAL}, lambda row: float(row[0])))
-        duties = {"helping": _WHOLE, "flight_mode": _TEXT}
-        self._duties.add(read(ledger.DUTIES, duties, lambda *rows: of_agents(list(zip(*rows, strict=True)))))
-        self._batteries.add(read("/telemetry/battery", {"Scalars:scalars": _REAL}, lambda row: of_agents(_known(row))))
         pairs = {"agent": _WHOLE, "target": _WHOLE}
-        self._tags.add(read(ledger.TAGS, pairs, lambda *rows: self._by_agent(int, *rows)))
+        scalars = {"Scalars:scalars": _REAL}
+        self._phase.add(read(ledger.PHASE, {"phase": _TEXT, "mission_began_at": _WHOLE}, _phase))
+        self._late_s.add(read("/telemetry/tick_late", scalars, lambda row: float(row[0])))
+        self._batteries.add(read("/telemetry/battery", scalars, lambda row: _as_many(_known(row), n_agents)))
+        self._duties.add(
+            read(
+                ledger.DUTIES,
+                {"helping": _WHOLE, "flight_mode": _TEXT},
+                lambda *rows: _as_many(list(zip(*rows, strict=True)), n_agents),
+            )
+        )
+        self._tags.add(read(ledger.TAGS, pairs, partial(self._by_agent, int)))
         calls = {**pairs, "loss_in_s": _REAL, "urgent": _WHOLE}
-        self._calls.add(read(ledger.CALLS, calls, lambda *rows: self._by_agent(_call, *rows)))
-        there = {"present": _WHOLE, "seen": _WHOLE}
-        self._targets.add(read(ledger.TARGETS, there, lambda *rows: _as_many(_flags(*rows), n_targets)))
+        self._calls.add(read(ledger.CALLS, calls, partial(self._by_agent, _call)))
+        self._targets.add(
+            read(
+                ledger.TARGETS,
+                {"present": _WHOLE, "seen": _WHOLE},
+                lambda *rows: _as_many(_flags(*rows), n_targets),
+            )
+        )
         self._links.add(read("/radio/graph", {"GraphEdges:edges": _EDGE}, self._heard))
-        modes = (
+
+    def _add_activities(self, read: Read) -> None:
+        lanes = (
             read(f"/agents/{name}/mode", {"StateChange:state": _TEXT}, lambda row, uid=uid: (uid, Activity(row[0])))
             for name, uid in self._uids.items()
         )
-        self._activities.add(merge(*modes, key=itemgetter(0)))
+        self._activities.add(merge(*lanes, key=itemgetter(0)))
+
+    def _add_words(self, read: Read) -> None:
         speakers: dict[str, int | None] = {_MISSION: None, **self._uids}
         words = (
             read(
@@ -122,6 +138,9 @@ class Reel:
             for name, uid in speakers.items()
         )
         self._words.add(merge(*words, key=itemgetter(0)))
+
+    def _add_places(self, table: Table) -> None:
+        n_agents = self._facts.agents
         self._places_m.add(self._points(table, "/world/agents/body", "Points3D:positions", n_agents))
         self._arrows.add(self._points(table, "/world/agents/heading", "Arrows3D:vectors", n_agents))
         self._targets_m.add(self._points(table, "/world/targets/body", "Points3D:positions", None))
