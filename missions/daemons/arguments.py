@@ -106,7 +106,7 @@ def add_processes(parser: Parser) -> None:
     """Add what a launch in many processes has."""
     about = "many processes; N agents in one (1)"
     parser.add_argument("--processes", nargs="?", type=count, const=1, metavar="N", help=about)
-    about = f"where they meet, and where people speak to the mission ({ENDPOINT}; without --speed: nowhere)"
+    about = f"where they meet, and people reach the mission ({ENDPOINT}; one process without --speed: nowhere)"
     parser.add_argument("--listen", metavar="ENDPOINT", help=about)
     parser.add_argument("--restarts", type=whole, default=3, metavar="N", help="of an agent's process that fails (3)")
     _add_keys(parser)

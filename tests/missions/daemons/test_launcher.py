@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
+from missions.cli import main
 from missions.daemons import launcher, processes
 from missions.daemons.launcher import run_processes
 from missions.daemons.processes import ProcessPlan
@@ -85,6 +86,11 @@ def test_a_mission_meets_at_any_address_of_this_machine_that_is_free(host: str) 
 def test_where_nobody_can_listen_is_said(endpoint: str) -> None:
     with pytest.raises(InputError, match=r"--listen: got .*; allowed: "):
         run_processes(NO_MISSION, endpoint=endpoint, console=Console(file=StringIO()))
+
+
+def test_a_port_for_ground_stations_goes_with_one_process_and_why_is_said(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["launch", "narrow", "--processes", "--gcs", "udpout:127.0.0.1:14550"]) == BAD_INPUT
+    assert "--gcs: not with --processes, where each vehicle is in another process" in capsys.readouterr().err
 
 
 def test_agents_that_outlive_their_world_are_told_of_and_may_land(
