@@ -20,6 +20,7 @@ from missions.overrides import Override
 from swarm_agent.fence import encloses
 
 QUICK = ("vehicle.boot_s=0.5", "agents.altitude.base_m=4")
+BENT = "{shape: polygon, corners_m: [[18, 18], [-18, 18], [-18, -40], [8, -40], [8, -10], [18, -10]]}"
 
 
 class Kept:
@@ -58,12 +59,13 @@ def test_agents_that_share_a_layer_keep_apart() -> None:
 
 
 @pytest.mark.parametrize(
-    "fence",
-    ["{shape: circle, radius_m: 18}", "{shape: polygon, corners_m: [[18, 18], [-18, 18], [-18, -40], [18, -40]]}"],
+    ("fence", "flavor"), [("{shape: circle, radius_m: 18}", "ardupilot"), (BENT, "px4")], ids=["ardupilot", "px4"]
 )
-def test_nobody_leaves_the_fence_though_targets_do(fence: str) -> None:
+def test_nobody_leaves_the_fence_though_targets_do(fence: str, flavor: str) -> None:
     wish = ("agents.count=4", "agents.speed_m_s=5", "targets={motion: random, speed_m_s: 4, count: 4}", "duration_s=60")
-    mission, kept, metrics = fly(*wish, f"safety.fence={fence}", "vehicle.wind={speed_m_s: 3, gust_m_s: 1}")
+    mission, kept, metrics = fly(
+        *wish, f"safety.fence={fence}", f"vehicle.flavor={flavor}", "vehicle.wind={speed_m_s: 3, gust_m_s: 1}"
+    )
     corners = compose.fence(mission).corners_m
     targets = [target for tick in kept.ticks for target in tick.targets]
     assert any(not encloses(corners, target.x_m, target.y_m) for target in targets)
