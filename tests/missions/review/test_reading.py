@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import json
 import os
 from dataclasses import replace
@@ -97,6 +98,20 @@ def test_observations_come_back_as_they_were_made(tmp_path: Path, part_s: float 
             assert (target.present, target.seen and target.present) == (same.present, same.seen)
             if target.present:
                 assert (same.x_m, same.y_m) == pytest.approx((target.x_m, target.y_m), abs=1 / 128 + 1e-6)
+
+
+def test_what_was_observed_is_in_memory_one_tick_at_a_time(tmp_path: Path) -> None:
+    def alive() -> int:
+        return sum(isinstance(one, Observation) for one in gc.get_objects())
+
+    scene = toy_scene()
+    with Recorder(tmp_path / "toy.rrd", scene=scene, part_s=10.0) as recorder:
+        for seen in toy_observations(scene, ticks=400):
+            recorder.observe(seen)
+    before = alive()
+    with play_back(tmp_path / "toy.rrd") as playback:
+        most = max(alive() for seen in playback.observations() if seen.tick % 50 == 49)
+    assert 1 <= most - before <= 2
 
 
 def test_a_recorder_that_is_killed_in_a_later_file_leaves_all_of_them_to_be_read(tmp_path: Path) -> None:
