@@ -253,3 +253,9 @@ def test_where_nobody_is_nobody_is_told() -> None:
     assert "Traceback" not in text
     code, text = tell(Verb.LAND, "quickstart", "--id", "10")
     assert (code, text) == (2, '--id: got "10"; allowed: a number from 0 to 9, or several, such as 0-9\n')
+
+
+def test_without_a_mission_whoever_a_mission_may_have_can_be_named() -> None:
+    assert verbs.whole_range("250-999") == tuple(range(250, 1000))
+    with pytest.raises(InputError, match=r'--id: got "1000"; allowed: a number from 0 to 999'):
+        verbs.whole_range("1000")
