@@ -89,7 +89,7 @@ class Guard:
         self._slowing_s = slowing_s(config.max_speed_m_s, config.acceleration_m_s2)
         self._reach_m = stopping_distance_m(config.max_speed_m_s, config.acceleration_m_s2)
         self._asked_at_s = 0.0
-        self._course: Velocity | None = None  # what it was told to fly last, unless that was its own wish
+        self._course: Velocity | None = None  # what it was told last, since walls in reach first bent its wish
         self._mates: dict[int, tuple[float, Frame]] = {}
         self._outside = False
         self._events: list[Event] = []
@@ -111,7 +111,9 @@ class Guard:
             velocity_m_s: how the vehicle flies now.
         """
         (x, y, _), (east, north, _) = position_m, velocity_m_s
-        since_s, self._asked_at_s = min(max(now_s - self._asked_at_s, 0.0), REACTION_S), now_s
+        since_s, self._asked_at_s = now_s - self._asked_at_s, now_s
+        if not 0.0 <= since_s <= REACTION_S:  # others have flown it meanwhile
+            since_s, self._course = 0.0, None
         if not all(map(isfinite, (x, y, east, north, *wish_m_s))):
             self._course = None
             return (0.0, 0.0)

@@ -82,6 +82,13 @@ def test_no_wish_leads_out_of_the_fence(fence: Fence, wishes: list[tuple[float, 
         assert encloses(fence.corners_m, *drone.place)
 
 
+def test_who_comes_back_from_other_hands_begins_from_how_it_flies() -> None:
+    mine = guard()
+    assert mine.safe(0.0, (50.0, 0.0, 10.0), (1.0, 4.0, 0.0), (6.0, 4.0))[1] == pytest.approx(4.0)
+    assert mine.safe(0.1, (50.0, 0.0, 10.0), STILL, (0.0, 0.0))[1] > 3.5  # no faster than it can be turned
+    assert mine.safe(9.0, (50.0, 0.0, 10.0), STILL, (0.0, 0.0)) == (0.0, 0.0)
+
+
 @FEW
 @given(
     corners=st.lists(st.tuples(st.floats(0.0, tau), st.floats(5.0, 70.0)), min_size=3, max_size=9),
