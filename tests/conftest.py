@@ -24,6 +24,7 @@ def pytest_configure() -> None:
         providers._get_local_constants = providers.Constants
 
 
+@pytest.hookimpl(tryfirst=True)  # before xdist looks for groups
 def pytest_collection_modifyitems(items: Sequence[pytest.Item]) -> None:
     """Tests that fly compiled missions share one worker, so that the study is compiled once."""
     for item in items:
