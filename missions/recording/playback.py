@@ -27,6 +27,7 @@ from missions.report import PACKAGES, Facts
 
 # All that is read of a recording.
 READ = (*PATHS, "/knowledge/**")
+_MOST = 100_000  # agents or targets: what is beyond was never flown, and would fill the memory
 _OURS = "a recording that swarm launch --record wrote"
 _LACKS = "{path}: got a recording without {what}; allowed: " + _OURS + ", of this version"
 
@@ -123,7 +124,9 @@ def _what_flew(path: Path, files: Sequence[Path]) -> tuple[Facts, str]:
                 coverage_floor=mission.get("coverage_floor"),
                 versions={name: versions[name] for name in ("python", *PACKAGES) if name in versions},
             )
-            return facts, mission["yaml"]
+            if 0 < facts.agents <= _MOST and 0 <= facts.targets <= _MOST:
+                return facts, mission["yaml"]
+            lack = "a number of agents and targets that can be"
         except KeyError as missing:
             lack = str(missing)
     raise InputError(_LACKS.format(path=path, what=lack))

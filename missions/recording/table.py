@@ -48,7 +48,7 @@ class Table:
         found = {}
         for batch in self._batches.get(path, ()):
             for name in batch.schema.names:
-                if name != _ROW_ID and (values := batch.column(name)[0].as_py()):
+                if name != _ROW_ID and len(batch) and (values := batch.column(name)[0].as_py()):
                     found[name] = values[0]
         return found
 
