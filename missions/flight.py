@@ -7,7 +7,9 @@ with open_local_bus() as bus:
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+import gc
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from types import MappingProxyType
 from typing import Protocol
 
@@ -79,13 +81,27 @@ class Flight:
         """
         self.side.meet([side.hello() for side in self.crew])
         crew = _InProcess(self.crew if attended is None else attended)
-        fly(self.side, crew, pace=pace, observers=observers, stop=stop)
+        with _settled():
+            fly(self.side, crew, pace=pace, observers=observers, stop=stop)
 
 
 class Member(Protocol):
     """Who does an agent's ticks."""
 
     def tick(self, cue: Cue) -> Done: ...
+
+
+@contextmanager
+def _settled() -> Iterator[None]:
+    """What is there already stays as long as the flight: Python's collector of garbage need not look at it each time.
+
+    Else it would, again and again: at a thousand agents that takes a third of the time.
+    """
+    gc.freeze()
+    try:
+        yield
+    finally:
+        gc.unfreeze()
 
 
 class _InProcess:
