@@ -21,7 +21,7 @@ FLIGHT = ("launch", "quickstart", *SMALL, "--duration", "40", "--speed", "20")
 def flying(*words: str) -> subprocess.Popen[str]:
     """A flight whose mission has begun; both its outputs come by one pipe."""
     process = subprocess.Popen((*COMMAND, *words), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    wait_for(process, "mission: ")
+    wait_for(process, "mission: 0:")  # what it says of its port ends with "mission: ", too
     return process
 
 
