@@ -35,7 +35,8 @@ Floats = npt.NDArray[np.float64]
 
 def over_time(review: Review, *, titled: bool = True) -> Figure:
     """Faults on purpose, coverage, lanes of activities, and distances, one below the other."""
-    shown_s = review.series.time_s[0], review.ended_s
+    first_s = review.series.time_s[0]
+    shown_s = first_s, max(review.ended_s, first_s + review.playback.facts.tick_s)
     lanes_in = min(_MOST_LANES_IN, 0.5 + _LANE_IN * review.playback.facts.agents)
     faults = list(_stacked(review, shown_s))
     faults_in = 0.1 + _FAULT_IN * (1 + max((row for *_, row in faults), default=-1))
@@ -158,8 +159,9 @@ def _distances(axes: Axes, review: Review) -> None:
     """How far each target is from the nearest agent: red from one point to the next if nobody saw it in between."""
     shown = review.snapshots
     times = np.array([one.time_s for one in shown])
-    lost = np.array([one.unseen for one in shown[:-1]])
-    for target in range(review.playback.facts.targets):
+    n_targets = review.playback.facts.targets
+    lost = np.array([one.unseen for one in shown[:-1]]).reshape(len(shown) - 1, n_targets)
+    for target in range(n_targets):
         away = np.array([_nearest_m(one, target) for one in shown])
         colors = [_BAD if out else _GOOD for out in lost[:, target]]
         for run, color in colored_runs(np.column_stack((times, away)), colors):

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 from html.parser import HTMLParser
+from math import inf
 from pathlib import Path
 from urllib.request import urlopen
 from xml.etree import ElementTree
@@ -15,6 +16,9 @@ from xml.etree import ElementTree
 import pytest
 
 from missions.cli import main
+from missions.launch import recorder_of
+from missions.load import load_mission
+from missions.options import LaunchOptions
 from missions.recording.playback import play_back
 from missions.review.comparison import parting_s
 from missions.review.reading import read
@@ -98,6 +102,18 @@ def test_pictures_are_png_or_svg_and_repeat_exactly(flown: Flown, tmp_path: Path
         assert (tmp_path / f"one.{kind}").read_bytes() == (tmp_path / f"two.{kind}").read_bytes()
     assert (tmp_path / "one.png").read_bytes().startswith(b"\x89PNG")
     assert ElementTree.parse(tmp_path / "one.svg").getroot().tag.endswith("svg")
+
+
+def test_a_single_tick_is_drawn(flown: Flown, tmp_path: Path) -> None:
+    with play_back(flown.recording) as playback:
+        first = next(playback.observations())
+    record = LaunchOptions(speed=inf, record=tmp_path / "tick.rrd")
+    with recorder_of(load_mission("quickstart"), len(first.targets), record) as recorder:
+        recorder.observe(first)
+    told = ["--plot", str(tmp_path / "tick.svg"), "--report", str(tmp_path / "tick.html")]
+    assert main(["review", str(tmp_path / "tick.rrd"), *told]) == 0
+    assert "From each target to the nearest agent" in (tmp_path / "tick.html").read_text()
+    assert ElementTree.parse(tmp_path / "tick.svg").getroot().tag.endswith("svg")
 
 
 def test_beside_json_words_go_where_people_look(flown: Flown, capsys: pytest.CaptureFixture[str]) -> None:
