@@ -9,6 +9,7 @@ One file of the recording is in memory at a time, compact as it lies there, and 
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -17,17 +18,16 @@ from pathlib import Path
 import pyarrow as pa
 from rerun.chunk import RrdReader
 
+from missions.mission.agents import MOST_AGENTS
 from missions.observation import Observation
 from missions.problems import InputError
+from missions.recording import ledger
 from missions.recording.reel import PATHS, Reel
 from missions.recording.scene import agent_names
 from missions.recording.table import MISSION, Table
 from missions.recording.whole import whole
 from missions.report import PACKAGES, Facts
 
-# All that is read of a recording.
-READ = (*PATHS, "/knowledge/**")
-_MOST = 100_000  # agents or targets: what is beyond was never flown, and would fill the memory
 _OURS = "a recording that swarm launch --record wrote"
 _LACKS = "{path}: got a recording without {what}; allowed: " + _OURS + ", of this version"
 
@@ -88,13 +88,13 @@ def play_back(path: Path) -> Iterator[Playback]:
         InputError: there is no such file, or it is no recording of a mission.
     """
     with whole(path) as found:
-        facts, mission_yaml = _what_flew(path, found.files)
+        facts, mission_yaml, doubts = _what_flew(path, found.files)
         yield Playback(
             path=path,
             facts=facts,
             mission_yaml=mission_yaml,
             unfinished=found.unfinished,
-            damaged=found.damaged,
+            damaged=found.damaged + doubts,
             _files=found.files,
         )
 
@@ -107,26 +107,36 @@ def _table(path: Path, file: Path, paths: Sequence[str]) -> Table:
         raise InputError(f"{path}: got no recording ({what}); allowed: {_OURS}") from error
 
 
-def _what_flew(path: Path, files: Sequence[Path]) -> tuple[Facts, str]:
-    """Every file says it; the first one in which it can be read is believed."""
+def _what_flew(path: Path, files: Sequence[Path]) -> tuple[Facts, str, int]:
+    """What flew, its mission file, and how many of its numbers are damaged.
+
+    Every file says it; the first one in which it can be read is believed. How many flew is what its rows have: a wrong
+    number would leave all of them out, and a large one take hours and all memory.
+    """
     lack = "a mission"
     for file in files:
-        table = _table(path, file, ["/__properties/**"])
+        table = _table(path, file, ["/__properties/**", ledger.DUTIES, ledger.TARGETS])
         mission, versions = table.statics(MISSION), table.statics("/__properties/versions")
         try:
+            agents = _how_many(table, ledger.DUTIES, "helping", said=mission["agents"])
+            targets = _how_many(table, ledger.TARGETS, "seen", said=mission["targets"])
             facts = Facts(
                 mission=mission["name"],
                 policy=mission["policy"],
                 seed=mission["seed"],
-                agents=mission["agents"],
-                targets=mission["targets"],
+                agents=agents,
+                targets=targets,
                 tick_s=mission["tick_s"],
                 coverage_floor=mission.get("coverage_floor"),
                 versions={name: versions[name] for name in ("python", *PACKAGES) if name in versions},
             )
-            if 0 < facts.agents <= _MOST and 0 <= facts.targets <= _MOST:
-                return facts, mission["yaml"]
-            lack = "a number of agents and targets that can be"
+            return facts, mission["yaml"], (agents != mission["agents"]) + (targets != mission["targets"])
         except KeyError as missing:
             lack = str(missing)
     raise InputError(_LACKS.format(path=path, what=lack))
+
+
+def _how_many(table: Table, path: str, component: str, *, said: int) -> int:
+    """How many entries most rows of an entity have; what is said, as far as so many can fly, counts as one more row."""
+    rows = [len(row) for _, (row,) in table.rows(path, {component: pa.int64()})]
+    return Counter([*rows, max(1, min(said, MOST_AGENTS))]).most_common(1)[0][0]

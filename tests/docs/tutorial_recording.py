@@ -13,7 +13,7 @@ from rerun.chunk import LazyChunkStream, RrdReader
 
 from missions.cli import main
 from missions.recording import optimize
-from missions.recording.playback import READ
+from missions.recording.reel import PATHS
 
 RECORDING = Path(__file__).parents[2] / "docs" / "reviewing.rrd"
 FLOWN = shlex.split(
@@ -48,7 +48,7 @@ def record() -> None:
         whole, lean = Path(folder) / "whole.rrd", Path(folder) / "lean.rrd"
         assert main([*FLOWN, "--set", FAULT, "--record", str(whole)]) == 0
         reader = RrdReader(whole)
-        numbers = reader.stream().filter(content=[path for path in READ if path not in (KNOWLEDGE, PROPERTIES)])
+        numbers = reader.stream().filter(content=[path for path in PATHS if path != PROPERTIES])
         parts = (
             numbers.drop(components=DRAWN),
             reader.stream().filter(content=KNOWLEDGE, components="TextDocument:text"),

@@ -22,6 +22,7 @@ from missions.problems import InputError
 from missions.recording import Recorder
 from missions.recording.optimize import rerun_command
 from missions.recording.playback import Playback, play_back
+from missions.recording.table import MISSION
 from missions.review.calls import Fate
 from missions.review.reading import read
 from tests.missions.review.conftest import Flown
@@ -108,6 +109,7 @@ def test_what_was_observed_is_in_memory_one_tick_at_a_time(tmp_path: Path) -> No
     with Recorder(tmp_path / "toy.rrd", scene=scene, part_s=10.0) as recorder:
         for seen in toy_observations(scene, ticks=400):
             recorder.observe(seen)
+    gc.collect()  # what other tests left
     before = alive()
     with play_back(tmp_path / "toy.rrd") as playback:
         most = max(alive() for seen in playback.observations() if seen.tick % 50 == 49)
@@ -195,6 +197,15 @@ def unfinished(tmp_path: Path) -> bytearray:
         return bytearray((tmp_path / "toy.rrd.part").read_bytes())
 
 
+def _add(chunk: Chunk, path: Path) -> None:
+    """To a recording, behind all that is in it."""
+    reader = RrdReader(path)
+    entry, chunks = reader.recordings()[0], [*reader.stream(), chunk]
+    LazyChunkStream.from_iter(chunks).write_rrd(
+        path, application_id=entry.application_id, recording_id=entry.recording_id
+    )
+
+
 def _beginnings(content: bytes) -> list[int]:
     """Where each message of a recording begins."""
     begins, at = [], 12
@@ -235,19 +246,32 @@ def test_what_makes_no_sense_is_left_out_and_told(
     with Recorder(tmp_path / "toy.rrd", scene=scene) as recorder:
         for one in toy_observations(scene, ticks=120):
             recorder.observe(one)
-    reader = RrdReader(tmp_path / "toy.rrd")
-    entry = reader.recordings()[0]
     indexes = [
         rr.TimeColumn("tick", sequence=[tick]),
         rr.TimeColumn("mission_time", duration=[np.timedelta64(70 * 10**8, "ns")]),
     ]
     odd = Chunk.from_columns(path, indexes=indexes, columns=rr.AnyValues.columns(**columns))
-    LazyChunkStream.from_iter([*reader.stream(), odd]).write_rrd(
-        tmp_path / "odd.rrd", application_id=entry.application_id, recording_id=entry.recording_id
-    )
-    sound, odd_one = (_read_back(tmp_path / name) for name in ("toy.rrd", "odd.rrd"))
+    sound = _read_back(tmp_path / "toy.rrd")
+    _add(odd, tmp_path / "toy.rrd")
+    odd_one = _read_back(tmp_path / "toy.rrd")
     assert (sound[0].damaged, odd_one[0].damaged) == (0, 1)
     assert sound[1] == odd_one[1]
+
+
+@pytest.mark.parametrize("key", ["agents", "targets"])
+@pytest.mark.parametrize("said", [0, 11, 65546, -(2**63)])
+def test_how_many_flew_is_what_the_rows_have_whatever_is_said(tmp_path: Path, key: str, said: int) -> None:
+    scene = toy_scene()
+    with Recorder(tmp_path / "toy.rrd", scene=scene) as recorder:
+        for one in toy_observations(scene, ticks=60):
+            recorder.observe(one)
+    columns = rr.AnyValues.columns(**{key: pa.array([said])})
+    _add(Chunk.from_columns(MISSION, indexes=[], columns=columns), tmp_path / "toy.rrd")
+    playback, seen = _read_back(tmp_path / "toy.rrd")
+    assert (playback.facts.agents, playback.facts.targets) == (scene.n_agents, scene.n_targets)
+    assert playback.damaged == 1
+    assert len(seen) == 60
+    assert any(target.seen for target in seen[-1].targets)
 
 
 def test_a_message_at_which_the_reader_crashes_is_left_out(
