@@ -4,6 +4,8 @@
 
 The arena grows with the swarm; ranges stay. Vehicles are ideal and all runs in one process. The processor time of the
 mission's ticks is counted, without takeoff: how busy the computer is otherwise matters little.
+
+The first row is what memory alone does: as many agents as in the largest swarm, in swarms of 30 that fly in turns.
 """
 
 from __future__ import annotations
@@ -12,12 +14,14 @@ import argparse
 import os
 import platform
 import resource
+import threading
 import time
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from math import sqrt
 from pathlib import Path
+from statistics import fmean
 
 from rich.console import Console
 from rich.table import Table
@@ -31,7 +35,31 @@ from missions.overrides import Override
 
 RADIUS_M = 30.0  # of the arena of ten agents, of which they start in the inner half, as their targets do
 AGENTS_THERE = 10
+SMALL_SWARM = 30
 SETTLING_TICKS = 10  # until everybody has heard its neighbors
+
+
+class Turn:
+    """Of one of several flights in a ring, in threads of their own, of which one runs at a time."""
+
+    def __init__(self, before: Turn | None = None) -> None:
+        self.before = before or self
+        self.after = self.before.after if before else self
+        self.before.after = self.after.before = self
+        self._mine = threading.Semaphore(0)
+
+    def end(self) -> None:
+        """It is the next one's."""
+        self.after._mine.release()
+
+    def take(self) -> None:
+        """Wait until it is this one's."""
+        self._mine.acquire()
+
+    def leave(self) -> None:
+        """End for good."""
+        self.before.after, self.after.before = self.after, self.before
+        self.end()
 
 
 @dataclass(slots=True)
@@ -46,11 +74,12 @@ class Cost:
     ticks: int
     ticks_s: list[float] = field(default_factory=list)
     neighbors: float = 0.0
+    turn: Turn | None = None
     _last_s: float = 0.0
     _heard: int = 0
 
     def observe(self, observation: Observation) -> None:
-        """Count a tick, if it is one of the mission."""
+        """Count a tick, if it is one of the mission, and let others have theirs."""
         now_s = time.process_time()
         tick = observation.mission_tick
         if tick is not None and tick > SETTLING_TICKS:
@@ -59,6 +88,9 @@ class Cost:
             self.neighbors = self._heard / len(self.ticks_s) / self.n_agents
             if len(self.ticks_s) >= self.ticks:
                 raise _EnoughError
+        if self.turn is not None:
+            self.turn.end()
+            self.turn.take()
         self._last_s = time.process_time()
 
     @property
@@ -67,12 +99,13 @@ class Cost:
         return sum(self.ticks_s) / len(self.ticks_s) / self.n_agents * 1e6
 
 
-def cost(n_agents: int, ticks: int) -> Cost:
+def fly(found: Cost, *, seed: int = 1) -> None:
     """Fly that many agents over as many targets, for so many ticks of the mission."""
-    radius_m = RADIUS_M * sqrt(n_agents / AGENTS_THERE)
+    radius_m = RADIUS_M * sqrt(found.n_agents / AGENTS_THERE)
     changes = {
-        "agents.count": n_agents,
-        "targets.count": n_agents,
+        "seed": seed,
+        "agents.count": found.n_agents,
+        "targets.count": found.n_agents,
         "arena.radius_m": radius_m,
         "agents.deployment.radius_m": radius_m / 2,
         "targets.deployment.radius_m": radius_m / 2,
@@ -82,12 +115,39 @@ def cost(n_agents: int, ticks: int) -> Cost:
         "vehicle.boot_s": 0.1,
     }
     mission = load_mission("quickstart", overrides=[Override(f"{key}={value}") for key, value in changes.items()])
-    found = Cost(n_agents, ticks)
     with open_local_bus() as bus:
         flight = Flight(mission, bus)
         with suppress(_EnoughError):
             flight.run(pace=Lockstep(), observers=[found], stop=lambda: False)
+
+
+def cost(n_agents: int, ticks: int) -> Cost:
+    """What one swarm takes."""
+    found = Cost(n_agents, ticks)
+    fly(found)
     return found
+
+
+def cost_in_turns(n_swarms: int, ticks: int) -> Cost:
+    """What small swarms take that fly in turns, tick by tick."""
+    turns = [Turn()]
+    while len(turns) < n_swarms:
+        turns.append(Turn(turns[-1]))
+    costs = [Cost(SMALL_SWARM, ticks, turn=turn) for turn in turns]
+
+    def take_part(number: int) -> None:
+        turns[number].take()
+        fly(costs[number], seed=number + 1)
+        turns[number].leave()
+
+    threads = [threading.Thread(target=take_part, args=(number,)) for number in range(n_swarms)]
+    for thread in threads:
+        thread.start()
+    turns[-1].end()
+    for thread in threads:
+        thread.join()
+    ticks_s = [tick_s for each in costs for tick_s in each.ticks_s]
+    return Cost(SMALL_SWARM, ticks, ticks_s=ticks_s, neighbors=fmean(each.neighbors for each in costs))
 
 
 class _EnoughError(Exception):
@@ -95,17 +155,23 @@ class _EnoughError(Exception):
 
 
 def plot(costs: Sequence[Cost], file: Path) -> None:
-    """The curve, as a picture."""
+    """The curve above what the agents hear, as a picture."""
     import matplotlib
 
     matplotlib.use("agg")
     from matplotlib import pyplot
 
-    figure, axes = pyplot.subplots(figsize=(6.4, 3.6), layout="constrained")
-    axes.plot([each.n_agents for each in costs], [each.agent_tick_us for each in costs], "o-", color="#2a78d6")
-    axes.set(xscale="log", xlabel="agents, and as many targets", ylabel="microseconds per agent and tick")
-    axes.set_ylim(bottom=0.0)
-    axes.grid(alpha=0.3)
+    figure, panels = pyplot.subplots(2, 1, sharex=True, figsize=(6.4, 4.8), layout="constrained")
+    counts = [each.n_agents for each in costs]
+    panels[0].plot(counts, [each.agent_tick_us for each in costs], "o-", color="#2a78d6")
+    panels[0].set(ylabel="microseconds per\nagent and tick")
+    panels[1].plot(counts, [each.neighbors for each in costs], "o-", color="#2a78d6")
+    panels[1].set(
+        xscale="log", xlabel="agents, and as many targets, at one density", ylabel="frames heard per\nagent and tick"
+    )
+    for panel in panels:
+        panel.set_ylim(bottom=0.0)
+        panel.grid(alpha=0.3)
     figure.savefig(file, dpi=150)
 
 
@@ -117,20 +183,22 @@ def main(arguments: Sequence[str] | None = None) -> None:
     options = parser.parse_args(arguments)
     console = Console()
     console.print(f"ideal vehicles, one process; Python {platform.python_version()}, {os.cpu_count()} cores")
-    table = Table("agents", "us per agent-tick", "times real time", "frames heard", "MB resident at most", box=None)
+    table = Table("agents", "us per agent-tick", "times real time", "frames heard", "MB at most", box=None)
     costs = []
-    for n_agents in options.agents:
-        found = cost(n_agents, options.ticks)
-        costs.append(found)
+
+    def add(name: str, found: Cost, n_agents: int) -> None:
         tick_s = found.agent_tick_us * n_agents / 1e6
         peak_mb = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-        table.add_row(
-            f"{n_agents}",
-            f"{found.agent_tick_us:.0f}",
-            f"{0.1 / tick_s:.1f}",
-            f"{found.neighbors:.1f}",
-            f"{peak_mb:.0f}",
-        )
+        cells = (f"{found.agent_tick_us:.0f}", f"{0.1 / tick_s:.1f}", f"{found.neighbors:.1f}", f"{peak_mb:.0f}")
+        table.add_row(name, *cells)
+
+    n_swarms = max(options.agents) // SMALL_SWARM
+    if n_swarms > 1:  # first, while little memory is taken
+        in_turns = cost_in_turns(n_swarms, options.ticks)
+        add(f"{n_swarms} times {SMALL_SWARM}", in_turns, n_swarms * SMALL_SWARM)
+    for n_agents in options.agents:
+        costs.append(cost(n_agents, options.ticks))
+        add(f"{n_agents}", costs[-1], n_agents)
     console.print(table)
     if options.plot is not None:
         plot(costs, options.plot)
