@@ -5,7 +5,7 @@
 The arena grows with the swarm; ranges stay. Vehicles are ideal and all runs in one process. The processor time of the
 mission's ticks is counted, without takeoff: how busy the computer is otherwise matters little.
 
-The first row is what memory alone does: as many agents as in the largest swarm, in swarms of 30 that fly in turns.
+The last row is what memory alone does: as many agents as in the largest swarm, in swarms of 30 that fly in turns.
 """
 
 from __future__ import annotations
@@ -16,10 +16,12 @@ import platform
 import resource
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, field
 from math import sqrt
+from multiprocessing import get_context
 from pathlib import Path
 from statistics import fmean
 
@@ -36,6 +38,7 @@ from missions.overrides import Override
 RADIUS_M = 30.0  # of the arena of ten agents, of which they start in the inner half, as their targets do
 AGENTS_THERE = 10
 SMALL_SWARM = 30
+TICK_S = 0.1  # of quickstart
 SETTLING_TICKS = 10  # until everybody has heard its neighbors
 
 
@@ -68,12 +71,14 @@ class Cost:
 
     Attributes:
         ticks_s: processor time of each tick of the mission. neighbors: frames heard, per agent and tick.
+        peak_mb: most memory resident. turn: where flights take turns.
     """
 
     n_agents: int
     ticks: int
     ticks_s: list[float] = field(default_factory=list)
     neighbors: float = 0.0
+    peak_mb: float = 0.0
     turn: Turn | None = None
     _last_s: float = 0.0
     _heard: int = 0
@@ -121,10 +126,22 @@ def fly(found: Cost, *, seed: int = 1) -> None:
             flight.run(pace=Lockstep(), observers=[found], stop=lambda: False)
 
 
+def alone(measure: Callable[[int, int], Cost], count: int, ticks: int) -> Cost:
+    """Measure in a process of its own, whose memory nobody has used before."""
+    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
+        return pool.submit(measure, count, ticks).result()
+
+
+def peak_mb() -> float:
+    """The most memory that this process has had resident so far."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+
+
 def cost(n_agents: int, ticks: int) -> Cost:
     """What one swarm takes."""
     found = Cost(n_agents, ticks)
     fly(found)
+    found.peak_mb = peak_mb()
     return found
 
 
@@ -147,7 +164,8 @@ def cost_in_turns(n_swarms: int, ticks: int) -> Cost:
     for thread in threads:
         thread.join()
     ticks_s = [tick_s for each in costs for tick_s in each.ticks_s]
-    return Cost(SMALL_SWARM, ticks, ticks_s=ticks_s, neighbors=fmean(each.neighbors for each in costs))
+    heard = fmean(each.neighbors for each in costs)
+    return Cost(SMALL_SWARM, ticks, ticks_s=ticks_s, neighbors=heard, peak_mb=peak_mb())
 
 
 class _EnoughError(Exception):
@@ -183,22 +201,21 @@ def main(arguments: Sequence[str] | None = None) -> None:
     options = parser.parse_args(arguments)
     console = Console()
     console.print(f"ideal vehicles, one process; Python {platform.python_version()}, {os.cpu_count()} cores")
-    table = Table("agents", "us per agent-tick", "times real time", "frames heard", "MB at most", box=None)
-    costs = []
+    heads = ("agents", "us per agent-tick", "frames heard", "us per frame", "times real time", "MB at most")
+    table = Table(*heads, box=None)
 
     def add(name: str, found: Cost, n_agents: int) -> None:
         tick_s = found.agent_tick_us * n_agents / 1e6
-        peak_mb = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-        cells = (f"{found.agent_tick_us:.0f}", f"{0.1 / tick_s:.1f}", f"{found.neighbors:.1f}", f"{peak_mb:.0f}")
-        table.add_row(name, *cells)
+        per_frame_us = found.agent_tick_us / found.neighbors
+        cells = (found.agent_tick_us, found.neighbors, per_frame_us, TICK_S / tick_s, found.peak_mb)
+        table.add_row(name, *(f"{cell:.{digits}f}" for cell, digits in zip(cells, (0, 1, 1, 1, 0), strict=True)))
 
+    costs = [alone(cost, n_agents, options.ticks) for n_agents in options.agents]
+    for found in costs:
+        add(f"{found.n_agents}", found, found.n_agents)
     n_swarms = max(options.agents) // SMALL_SWARM
-    if n_swarms > 1:  # first, while little memory is taken
-        in_turns = cost_in_turns(n_swarms, options.ticks)
-        add(f"{n_swarms} times {SMALL_SWARM}", in_turns, n_swarms * SMALL_SWARM)
-    for n_agents in options.agents:
-        costs.append(cost(n_agents, options.ticks))
-        add(f"{n_agents}", costs[-1], n_agents)
+    if n_swarms > 1:
+        add(f"{n_swarms} times {SMALL_SWARM}", alone(cost_in_turns, n_swarms, options.ticks), n_swarms * SMALL_SWARM)
     console.print(table)
     if options.plot is not None:
         plot(costs, options.plot)
