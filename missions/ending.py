@@ -26,7 +26,7 @@ class Ending:
         tell: says to whoever watches that it was heard.
 
     Attributes:
-        asked: yes. interrupted: by Ctrl-C.
+        asked: yes. interrupted: by Ctrl-C, alone or before another signal.
     """
 
     def __init__(self, tell: Callable[[str], None]) -> None:
@@ -68,7 +68,7 @@ class Ending:
         if self._signaled and number != signal.SIGHUP:  # a terminal that goes says so twice, and is nobody's haste
             raise KeyboardInterrupt
         self._signaled = True
-        self.interrupted = number == signal.SIGINT
+        self.interrupted = self.interrupted or number == signal.SIGINT
         self.ask()
 
 

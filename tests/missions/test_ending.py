@@ -31,3 +31,14 @@ def test_signals_count_anew_for_what_begins_when_a_flight_is_over() -> None:
         assert is_asked_again()
         with pytest.raises(KeyboardInterrupt):
             signal.raise_signal(signal.SIGTERM)
+
+
+@pytest.mark.parametrize("later", [signal.SIGHUP, signal.SIGTERM])
+def test_ctrl_c_stays_the_reason_whatever_comes_after_it(later: signal.Signals) -> None:
+    ending = Ending(lambda text: None)
+    with ending.listening():
+        signal.raise_signal(signal.SIGINT)
+        if later is signal.SIGTERM:  # else the second signal would be haste
+            ending.begin_anew()
+        signal.raise_signal(later)
+    assert ending.interrupted

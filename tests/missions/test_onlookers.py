@@ -15,7 +15,7 @@ from missions.daemons.orders import Answer, Report
 from tests.missions.daemons.swarm import COMMAND, SMALL, children, free_endpoint, kill, wait_until_gone
 from tests.patience import PATIENCE_S
 
-FLIGHT = ("launch", "quickstart", *SMALL, "--duration", "40", "--speed", "20")
+FLIGHT = ("launch", "quickstart", *SMALL, "--duration", "40", "--speed", "20", "--listen", free_endpoint())
 
 
 def flying(*words: str) -> subprocess.Popen[str]:

@@ -107,9 +107,16 @@ def test_in_lockstep_it_waits_for_a_recorder_that_is_behind() -> None:
     mission.appear()
     mission.say()
     mission.observe(range(WINDOW_TICKS))
-    progress = threading.Timer(0.05, mission.say, (0,))
+    got_on = threading.Event()
+
+    def get_on() -> None:
+        got_on.set()
+        mission.say(0)
+
+    progress = threading.Timer(0.05, get_on)
     progress.start()
     in_time(lambda: mission.observe(range(WINDOW_TICKS, WINDOW_TICKS + 1)))
+    assert got_on.is_set()
     progress.join()
     assert mission.feed.failures == []
     assert mission.passed_on == list(range(WINDOW_TICKS + 1))
