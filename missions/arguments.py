@@ -9,6 +9,8 @@ import argparse
 from math import inf, isfinite
 from pathlib import Path
 
+MOST_UNIX_S = 4_102_444_800.0  # 2100
+
 
 def speed(text: str) -> float:
     """Times real time; `max` is as fast as it goes."""
@@ -50,6 +52,17 @@ def new_file(text: str) -> Path:
 def report(text: str) -> str:
     """A file, or `-` for standard output."""
     return text if text == "-" else str(new_file(text))
+
+
+def unix_time(text: str) -> float:
+    """A time, seconds since 1970."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = -1.0
+    if not 0 <= value < MOST_UNIX_S:
+        raise argparse.ArgumentTypeError(f'got "{text}"; allowed: seconds since 1970')
+    return value
 
 
 def seconds(text: str) -> float:

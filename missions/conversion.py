@@ -14,6 +14,8 @@ from missions.problems import InputError, OutputError
 from missions.recording.imported import SameNameError, record_logs
 from missions.review.words import clock
 
+MOST_BACK_S = 1.0  # what nobody need be told of: a clock was set right
+
 
 def import_logs(paths: Sequence[Path], to: Path) -> None:
     """Record one or several telemetry logs, of one or many vehicles, into one recording.
@@ -40,6 +42,9 @@ def import_logs(paths: Sequence[Path], to: Path) -> None:
         for path, log in zip(paths, logs, strict=True):
             if log.skipped_bytes:
                 console.print(f"{path}: {log.skipped_bytes} bytes are no message, and left out", style="yellow")
+            if log.back_s > MOST_BACK_S:
+                told = f"its time goes back, by up to {log.back_s:.1f} s: what came twice lies one over the other"
+                console.print(f"{path}: {told}", style="yellow")
     who = ", ".join(imported.vehicles) or "no vehicle"
     console.print(f"{to}: {who}, {sum(log.messages for log in logs)} messages in {clock(imported.duration_s)}")
 

@@ -36,6 +36,7 @@ class FlightLog:
 
     Attributes:
         messages, skipped_bytes: messages that were read so far, and bytes that were none.
+        back_s: how far its time went back, where that was farthest: a computer's clock was set, or it is two logs.
     """
 
     def __init__(self, data: bytes | mmap) -> None:
@@ -43,9 +44,10 @@ class FlightLog:
         self._decoder = LogDecoder()
         self.messages = 0
         self.skipped_bytes = 0
+        self.back_s = 0.0
 
     def __iter__(self) -> Iterator[Entry]:
-        data, position = self._data, 0
+        data, position, latest_s = self._data, 0, 0.0
         while position < len(data):
             size = _entry_bytes(data, position)
             message = None if size is None else self._decoder.decoded(data[position + _STAMP.size : position + size])
@@ -54,7 +56,10 @@ class FlightLog:
                 self.skipped_bytes += 1
                 continue
             self.messages += 1
-            yield Entry(_STAMP.unpack_from(data, position)[0] / 1e6, message)
+            unix_s = _STAMP.unpack_from(data, position)[0] / 1e6
+            latest_s = max(latest_s, unix_s)
+            self.back_s = max(self.back_s, latest_s - unix_s)
+            yield Entry(unix_s, message)
             position += size
 
 

@@ -61,7 +61,7 @@ def agent(mission: Mission, uids: Sequence[int], options: DaemonOptions) -> int:
             with (
                 open_world(options, ending=ending, log=log, n_peers=len(mission.radio.endpoints)) as bus,
                 open_airwaves(mission, uids, options, bus) as airwaves,
-                tlogs(options.tlog, uids, began_unix_s=None, adds=True) as logs,
+                tlogs(options.tlog, uids, began_unix_s=options.tlog_began_unix_s, adds=True) as logs,
             ):
                 radios = compose.radios(mission, airwaves, uids, n_targets(mission))
                 daemon = _Daemon(mission, radios, bus, transports, logs, options, ending=ending, log=log)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from missions.arguments import count, new_file, report, seconds, speed, whole
+from missions.arguments import count, new_file, report, seconds, speed, unix_time, whole
 from missions.daemons.log import LEVELS
 from missions.daemons.options import ENDPOINT, JOIN_S
 
@@ -83,6 +83,8 @@ def agent_options(parser: Parser) -> Parser:
     about = f"without a world: listen there for people and detectors ({ENDPOINT}), in UTC, from swarm resume on"
     parser.add_argument("--alone", nargs="?", const=ENDPOINT, metavar="ENDPOINT", help=about)
     parser.add_argument("--tlog", type=Path, metavar="DIR", help="add to a log of each link there, for MAVProxy")
+    about = "when the mission clock was 0, for times of these logs (such that the first frame comes now)"
+    parser.add_argument("--tlog-began", type=unix_time, metavar="UNIX_S", help=about)
     _add_insecure(parser)
     return _add_daemon(parser, "--connect", "where the world listens")
 

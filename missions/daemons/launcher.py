@@ -6,11 +6,12 @@ they notice, land and go (`--leash`). The recorder goes with the world.
 
 from __future__ import annotations
 
+import errno
 import re
 import signal
 import socket
 import subprocess
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from time import monotonic, sleep
 
@@ -31,6 +32,7 @@ LOOK_EVERY_S = 0.1
 LANDING_S = RETURN_LIMIT_S + 60.0
 SAY_EVERY_S = 30.0
 GOING_S = 3.0  # from a request to end until that is forced
+TAKEN = "; another mission may listen there, as every launch with --speed does: --listen names another port"
 
 
 class _Child:
@@ -75,13 +77,19 @@ class _Child:
             self._process.stdin.close()
 
 
-def run_processes(plans: Sequence[ProcessPlan], *, endpoint: str, console: Console) -> int:
+def run_processes(
+    plans: Sequence[ProcessPlan], *, endpoint: str, console: Console, prepare: Callable[[], None] = lambda: None
+) -> int:
     """Run a plan until its world ends. Returns the world's exit code: it knows whom it has lost, and who may be lost.
+
+    Args:
+        prepare: what is done before the first process starts, and only if they can meet.
 
     Raises:
         InputError: another process listens at the endpoint.
     """
     _check_free(endpoint)
+    prepare()
     ending = Ending(lambda text: console.print(f"Stopping: {text}.", markup=False))
     children: list[_Child] = []
     with ending.listening():
@@ -153,4 +161,6 @@ def _check_free(endpoint: str) -> None:
         with socket.create_server(place, family=family):
             pass
     except (OSError, OverflowError, UnicodeError) as error:
-        raise InputError(f"--listen: got {endpoint}; allowed: a free port of this machine ({error})") from error
+        is_taken = isinstance(error, OSError) and error.errno == errno.EADDRINUSE
+        hint = TAKEN if is_taken else ""
+        raise InputError(f"--listen: got {endpoint}; allowed: a free port of this machine ({error}){hint}") from error

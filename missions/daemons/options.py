@@ -29,7 +29,8 @@ class DaemonOptions:
         speed: mission seconds per second of wall time; `inf` is as fast as it goes.
         log_level: the least that is said. leash: end when standard input does.
         credentials: what proves who it is; None: anybody may come in.
-        tlog: the folder for a log of each link to a vehicle, if any.
+        tlog: the folder for a log of each link to a vehicle, if any. tlog_began_unix_s: when the mission clock was 0
+        in these logs; None: such that what comes first comes now.
     """
 
     endpoint: str = ENDPOINT
@@ -39,6 +40,7 @@ class DaemonOptions:
     leash: bool = False
     credentials: Credentials | None = None
     tlog: Path | None = None
+    tlog_began_unix_s: float | None = None
 
     @property
     def lockstep(self) -> bool:

@@ -45,7 +45,8 @@ class ProcessOptions:
 
     Attributes:
         mission_words: the mission and what changes it, as on the command line. speed: as given to --speed, if it was.
-        tlog: the folder of the agents' telemetry logs. views: --view, --web: how people look on.
+        tlog: the folder of the agents' telemetry logs. began_unix_s: when their mission clock is 0, if it is started;
+        one for all, and for those that are started again. views: --view, --web: how people look on.
         per_process: agents in one process. restarts: of an agent that fails. keys: the folder of all credentials, if
         the network is secured. insecure: whether that is left out on purpose.
     """
@@ -56,6 +57,7 @@ class ProcessOptions:
     report: str | None = None
     record: Path | None = None
     tlog: Path | None = None
+    began_unix_s: float | None = None
     views: tuple[str, ...] = ()
     per_process: int = 1
     restarts: int = 3
@@ -73,6 +75,8 @@ def plan_processes(mission: Mission, options: ProcessOptions) -> tuple[ProcessPl
     report = () if options.report is None else ("--report", options.report)
     connect = (*options.mission_words, "--connect", options.endpoint, *speed, *common)
     logged = () if options.tlog is None else ("--tlog", str(options.tlog))
+    began_s = options.began_unix_s
+    timed = () if options.tlog is None or began_s is None else ("--tlog-began", f"{began_s:.6f}")
     unsecured = insecure if mission.radio.endpoints else ()
     kept = () if options.record is None else ("--record", str(options.record))
     recorder = (*kept, *options.views)
@@ -100,7 +104,10 @@ def plan_processes(mission: Mission, options: ProcessOptions) -> tuple[ProcessPl
         last = min(first + options.per_process, mission.agents.count) - 1
         uids = str(first) if first == last else f"{first}-{last}"
         name = f"agent {uids}" if first == last else f"agents {uids}"
-        identity, words = agents_name((first, last)), ("agent", *connect, *logged, *unsecured, "--leash", "--id", uids)
+        identity, words = (
+            agents_name((first, last)),
+            ("agent", *connect, *logged, *timed, *unsecured, "--leash", "--id", uids),
+        )
         plans.append(ProcessPlan(name=name, identity=identity, words=words, restarts=options.restarts))
     if recorder:
         words = ("record", *connect, *recorder)

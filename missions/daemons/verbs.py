@@ -6,6 +6,7 @@ import argparse
 import sys
 from collections.abc import Iterator, Sequence
 from math import isinf
+from time import time
 
 from comms.credentials import OPERATOR, Credentials, agents_name, agents_named
 from comms.keys import RECORDER, WORLD
@@ -92,10 +93,7 @@ def record(mission: Mission, options: argparse.Namespace) -> int:
 
 def launch(mission: Mission, options: argparse.Namespace) -> int:
     """Start all processes of a mission, and stay until it is over."""
-    for option, given in (
-        ("--gcs", options.gcs),
-        ("--gcs-signing-key", options.gcs_signing_key),
-    ):
+    for option, given in (("--gcs", options.gcs), ("--gcs-signing-key", options.gcs_signing_key)):
         if given:
             raise InputError(
                 f"{option}: not with --processes, where each vehicle is in another process; allowed: a launch without "
@@ -104,11 +102,14 @@ def launch(mission: Mission, options: argparse.Namespace) -> int:
     from missions.daemons.launcher import run_processes
 
     endpoint = options.listen or ENDPOINT
-    plans = processes(mission, options)
-    if options.tlog is not None:
+    plans = processes(mission, options, began_unix_s=time())
+
+    def empty_logs() -> None:
+        """Agents add to them, those that come back, too."""
         with tlogs(options.tlog, range(mission.agents.count), began_unix_s=None):
-            pass  # they can be written, and are empty: agents add to them, those that come back, too
-    return run_processes(plans, endpoint=endpoint, console=outlet_console(stderr=True))
+            pass
+
+    return run_processes(plans, endpoint=endpoint, console=outlet_console(stderr=True), prepare=empty_logs)
 
 
 def board(options: argparse.Namespace, *, speed: float) -> Board | None:
@@ -156,8 +157,10 @@ def issue(options: argparse.Namespace) -> int:
     return 0
 
 
-def processes(mission: Mission, options: argparse.Namespace) -> tuple[ProcessPlan, ...]:
-    """What a launch with these options would start."""
+def processes(
+    mission: Mission, options: argparse.Namespace, *, began_unix_s: float | None = None
+) -> tuple[ProcessPlan, ...]:
+    """What a launch with these options would start, at that time if it does."""
     given = vars(options)
     speed = given.get("speed")
     _speed(mission, speed)
@@ -171,6 +174,7 @@ def processes(mission: Mission, options: argparse.Namespace) -> tuple[ProcessPla
         report=given.get("report"),
         record=given.get("record"),
         tlog=given.get("tlog"),
+        began_unix_s=began_unix_s,
         views=tuple(f"--{name}" for name in ("view", "web") if given.get(name)),
         per_process=options.processes,
         restarts=options.restarts,
@@ -258,4 +262,5 @@ def _daemon(options: argparse.Namespace, speed: float, name: str) -> DaemonOptio
         leash=options.leash,
         credentials=credentials_of(options.keys, name),
         tlog=vars(options).get("tlog"),
+        tlog_began_unix_s=vars(options).get("tlog_began"),
     )

@@ -96,6 +96,16 @@ def test_a_flight_is_in_the_recording(tmp_path: Path, capsys: pytest.CaptureFixt
     assert not out.with_name("out.rrd.part").exists()
 
 
+@pytest.mark.parametrize(("second_s", "is_told"), [(4.0, False), (2.5, False), (0.0, True)])
+def test_a_log_whose_time_goes_back_is_told_of(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], second_s: float, is_told: bool
+) -> None:
+    lives = (_entry(PLACE, after_s=after_s) for after_s in (1.0, 3.0, second_s, second_s + 1.0))
+    (tmp_path / "a.tlog").write_bytes(b"".join(lives))
+    assert main(["import", str(tmp_path / "a.tlog"), "--to", str(tmp_path / "out.rrd")]) == 0
+    assert ("its time goes back, by up to 3.0 s" in capsys.readouterr().out) is is_told
+
+
 # HEARTBEAT's type, autopilot and custom_mode, and the mode as ArduPilot's and PX4's ground stations show it.
 @pytest.mark.parametrize(
     ("vehicle_type", "autopilot", "number", "name"),

@@ -16,6 +16,7 @@ from missions.daemons.processes import ProcessPlan
 from missions.exit_codes import BAD_INPUT
 from missions.problems import InputError
 from missions.sides.phases import RETURN_LIMIT_S
+from missions.tlog import log_of
 from tests.missions.daemons.swarm import free_endpoint
 from tests.patience import PATIENCE_S
 
@@ -76,6 +77,18 @@ def test_a_mission_meets_at_any_address_of_this_machine_that_is_free(host: str) 
             run_processes(NO_MISSION, endpoint=endpoint, console=Console(file=StringIO()))
     # Now it is free: it comes as far as its world, which is told a mission that is none.
     assert run_processes(NO_MISSION, endpoint=endpoint, console=Console(file=StringIO())) == BAD_INPUT
+
+
+def test_a_launch_that_finds_its_port_taken_says_by_whom_and_leaves_older_logs_alone(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    older = log_of(tmp_path, 0)
+    older.write_bytes(b"of another flight")
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        endpoint = f"tcp/127.0.0.1:{server.getsockname()[1]}"
+        assert main(["launch", "narrow", "--processes", "--tlog", str(tmp_path), "--listen", endpoint]) == BAD_INPUT
+    assert older.read_bytes() == b"of another flight"
+    assert "as every launch with --speed does: --listen names another port" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -14,6 +14,7 @@ import pytest
 from missions.daemons.crew import TAKEN
 from missions.daemons.feed import UNAWAITED
 from missions.daemons.options import fingerprint
+from missions.flightlog import FlightLog
 from missions.load import load_mission
 from missions.tlog import log_of
 from tests.missions.daemons.swarm import (
@@ -105,7 +106,8 @@ def test_a_whole_mission_and_its_recording_are_the_same(tmp_path: Path) -> None:
 def test_an_agent_that_is_killed_is_lost_and_comes_back(tmp_path: Path, words: tuple[str, ...], code: int) -> None:
     file = tmp_path / "report.json"
     mission = ("quickstart", *SMALL, *LONG, "--duration", str(PATIENT_S), *words, "--report", str(file))
-    with swarm("launch", *mission, "--processes", "--listen", free_endpoint()) as run:
+    files = ("--tlog", str(tmp_path))
+    with swarm("launch", *mission, *files, "--processes", "--listen", free_endpoint()) as run:
         run.wait_for("the mission begins")
         kill(agent_pid(run.process.pid, 2), signal.SIGKILL)
         assert run.wait() == code, run.output
@@ -115,6 +117,10 @@ def test_an_agent_that_is_killed_is_lost_and_comes_back(tmp_path: Path, words: t
     assert "agent 2 ended with code -9: started again" in run.output
     assert 'who=agent-2 text="landed and disarmed"' in run.output
     assert report["duration_s"] == PATIENT_S
+    times = [[entry.unix_s for entry in FlightLog(log_of(tmp_path, uid).read_bytes())] for uid in range(3)]
+    assert len({log[0] for log in times}) == 1  # one mission clock, whenever a process was started
+    assert times[2] == sorted(times[2])
+    assert times[2][-1] - times[2][0] > PATIENT_S
 
 
 def test_an_agent_that_stands_still_is_lost_for_a_while_in_real_time(tmp_path: Path) -> None:
