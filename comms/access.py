@@ -14,7 +14,7 @@ from enum import Enum
 from typing import Any
 
 from comms.credentials import OPERATOR, Credentials, agents_named
-from comms.keys import EVERYBODY_OF_ANY_MISSION, RECORDER, WORLD, Keys
+from comms.keys import EVERYBODY_OF_ANY_MISSION, FLIGHT, RECORDER, WORLD, Keys
 
 
 class Deed(Enum):
@@ -91,7 +91,7 @@ def _agents(keys: Keys, uids: Sequence[int], also_heard: Sequence[str]) -> Right
         (Deed.KNOW_LISTENERS, [keys.every_tx, keys.every_done]),
         (Deed.HEAR, [*also_heard, *(key for uid in uids for key in (keys.rx(uid), keys.cue(uid)))]),
         (Deed.BE_THERE, [keys.alive(uid) for uid in uids]),
-        (Deed.WATCH, [keys.alive(WORLD)]),
+        (Deed.WATCH, [keys.alive(WORLD), keys.alive(FLIGHT)]),
         (Deed.ANSWER, [keys.every_command(uid) for uid in uids]),
     )
 
@@ -120,8 +120,8 @@ def _recorder(keys: Keys) -> Rights:
         (Deed.SAY, [keys.kept]),
         (Deed.KNOW_LISTENERS, [keys.kept]),
         (Deed.HEAR, [keys.truth]),
-        (Deed.BE_THERE, [keys.alive(RECORDER)]),
-        (Deed.WATCH, [keys.alive(WORLD)]),
+        (Deed.BE_THERE, [keys.every_recorder]),
+        (Deed.WATCH, [keys.alive(WORLD), keys.alive(FLIGHT)]),
     )
 
 

@@ -3,7 +3,9 @@
     swarm/@v1/<mission>/tx/<uid>             agent -> air: one frame per tick; in the field -> every mate
     swarm/@v1/<mission>/rx/<uid>             air -> that agent alone: what got through, one bundle per tick
     swarm/@v1/<mission>/sight/<uid>          detector on board -> agent without a world: what is in sight
-    swarm/@v1/<mission>/alive/<who>          liveliness token: of an agent (its uid), of the world, of the recorder
+    swarm/@v1/<mission>/alive/<who>          liveliness token: of an agent (its uid), of the world
+    swarm/@v1/<mission>/alive/recorder/<life>
+                                             liveliness token of a recorder, of which there may be several
     swarm/@v1/<mission>/alive/flight         liveliness token of a mission whose agents all fly in one process
     swarm/@v1/<mission>/alive/crew<n>        liveliness token of a world or flight: so many agents belong to its mission
     swarm/@v1/<mission>/cmd/<uid>/<verb>     queryable of an agent: what people tell it, with a result
@@ -61,8 +63,17 @@ class Keys:
         return f"{_ROOT}/{self.mission}/sight/{uid}"
 
     def alive(self, who: int | str) -> str:
-        """The token that says `who` is there: an agent's uid, WORLD, RECORDER or FLIGHT."""
+        """The token that says `who` is there: an agent's uid, WORLD or FLIGHT."""
         return f"{_ROOT}/{self.mission}/alive/{who}"
+
+    def recorder(self, life: int) -> str:
+        """The token that says this one of the recorders is there."""
+        return f"{self.alive(RECORDER)}/{life}"
+
+    @property
+    def every_recorder(self) -> str:
+        """The tokens of all recorders."""
+        return f"{self.alive(RECORDER)}/*"
 
     def crew(self, n_agents: int) -> str:
         """The token that says how many agents the mission has, there or not."""

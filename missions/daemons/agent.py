@@ -23,7 +23,7 @@ from comms.status import Activity, Event, Level
 from comms.transport import Transport
 from missions import compose
 from missions.daemons.airwaves import open_airwaves
-from missions.daemons.joining import new_life, open_world, unmet
+from missions.daemons.joining import new_life, open_world, tell_of_flight, unmet
 from missions.daemons.log import Log
 from missions.daemons.options import DaemonOptions, await_world_s, fingerprint
 from missions.daemons.orders import Verb, encode_answer
@@ -116,6 +116,7 @@ class _Daemon:
             bus.declare_alive(keys.alive(uid))
             self._questions.take_at(bus, keys.every_command(uid), uid)
         bus.watch(keys.alive(WORLD), self._on_world)
+        tell_of_flight(bus, keys, self._log)
         self._log.info("ready")
         deadline_s = monotonic() + self._options.join_s
         while self._flying():

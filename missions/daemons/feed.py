@@ -9,7 +9,7 @@ from time import monotonic
 
 import msgspec
 
-from comms.keys import RECORDER, Keys
+from comms.keys import Keys
 from comms.session import Network
 from comms.status import Event, Level
 from missions.daemons.crew import STRANGE, CrewError
@@ -68,6 +68,7 @@ class Feed:
         tell: Callable[[Event], None],
     ) -> None:
         self.failures: list[str] = []
+        self._keys = keys
         self._put = bus.publisher(keys.truth)
         self._lockstep = lockstep
         self._fingerprint = fingerprint
@@ -81,7 +82,7 @@ class Feed:
         self._there = False
         self._gone_at_s = 0.0
         bus.subscribe(keys.kept, self._hear)
-        bus.watch(keys.alive(RECORDER), self._on_change)
+        bus.watch(keys.every_recorder, self._on_change)
 
     @property
     def recording(self) -> Path | None:
@@ -167,6 +168,8 @@ class Feed:
 
     def _on_change(self, key: str, is_there: bool) -> None:
         with self._progress:
+            if self._kept is None or key != self._keys.recorder(self._kept.life):
+                return  # an onlooker's, or of one that has not said yet what it is
             if self._there and not is_there:
                 self._gone_at_s = monotonic()
             self._there = is_there

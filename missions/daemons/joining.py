@@ -6,6 +6,7 @@ import secrets
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+from comms.keys import FLIGHT, Keys
 from comms.session import BusError, Network, open_client
 from missions.daemons.log import Log
 from missions.daemons.options import DaemonOptions
@@ -40,6 +41,16 @@ def open_world(options: DaemonOptions, *, ending: Ending, log: Log, n_peers: int
 def new_life() -> int:
     """What tells this process from all others that are, were or will be in its place. No decision depends on it."""
     return 1 + secrets.randbits(52)
+
+
+def tell_of_flight(bus: Network, keys: Keys, log: Log) -> None:
+    """Say so if it is no world that has the endpoint, but a launch of the same mission that flies all agents itself."""
+
+    def on_change(key: str, is_there: bool) -> None:
+        if is_there:
+            log.error(f"{keys.mission} flies there in one process, which lets nobody in")
+
+    bus.watch(keys.alive(FLIGHT), on_change)
 
 
 def unmet(error: BusError, mission: Mission, options: DaemonOptions, *, ending: Ending, log: Log) -> int:

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 import msgspec
 from msgspec import structs
 
-from comms.keys import RECORDER, WORLD, Keys
+from comms.keys import WORLD, Keys
 from comms.session import BusError, Network
 from missions.daemons.feed import KEPT_EVERY_TICKS, WINDOW_TICKS, Kept
-from missions.daemons.joining import new_life, open_world, unmet
+from missions.daemons.joining import new_life, open_world, tell_of_flight, unmet
 from missions.daemons.log import Log
 from missions.daemons.options import DaemonOptions, await_world_s, fingerprint
 from missions.daemons.security import silence
@@ -90,7 +90,8 @@ class _Reel:
         self._put = bus.publisher(keys.kept)
         bus.subscribe(keys.truth, self._hear)
         bus.watch(keys.alive(WORLD), self._on_world)
-        bus.declare_alive(keys.alive(RECORDER))
+        bus.declare_alive(keys.recorder(self._life))
+        tell_of_flight(bus, keys, log)
 
     def run(self) -> int:
         """Record until the mission is over."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from comms.keys import RECORDER, WORLD, Keys, crew_size, sender, somebody
+from comms.keys import WORLD, Keys, crew_size, sender, somebody
 
 
 def test_a_key_of_somebody_is_read_back() -> None:
@@ -27,7 +27,7 @@ def test_a_crew_is_counted_and_is_nobody() -> None:
 def test_no_two_keys_are_the_same() -> None:
     keys = Keys("tour")
     mine = [keys.tx(1), keys.rx(1), keys.alive(1), keys.cue(1), keys.done(1), keys.command(1, "land")]
-    shared = [keys.alive(WORLD), keys.alive(RECORDER), keys.truth, keys.kept]
+    shared = [keys.alive(WORLD), keys.recorder(1), keys.recorder(2), keys.truth, keys.kept]
     assert len({*mine, *shared}) == len(mine) + len(shared)
 
 

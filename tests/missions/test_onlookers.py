@@ -12,7 +12,7 @@ import pytest
 
 from missions.daemons.fleet import result_table, status_table
 from missions.daemons.orders import Answer, Report
-from tests.missions.daemons.swarm import COMMAND, SMALL, children, free_endpoint, kill, wait_until_gone
+from tests.missions.daemons.swarm import COMMAND, SMALL, children, free_endpoint, kill, swarm, wait_until_gone
 from tests.patience import PATIENCE_S
 
 FLIGHT = ("launch", "quickstart", *SMALL, "--duration", "40", "--speed", "20", "--listen", free_endpoint())
@@ -55,6 +55,17 @@ def test_a_pipe_that_nobody_reads_ends_no_flight(tmp_path: Path) -> None:
         process.kill()
     assert report_of(file)["duration_s"] == 40.0
     assert report_of(file)["faults"] == []
+
+
+def test_an_agent_that_comes_to_a_flight_of_one_process_is_told_that_it_is_one() -> None:
+    endpoint = free_endpoint()
+    process = flying(*FLIGHT, "--speed", "1", "--listen", endpoint)
+    try:
+        with swarm("agent", "quickstart", *SMALL, "--id", "0", "--connect", endpoint, "--speed", "1") as agent:
+            agent.wait_for("quickstart flies there in one process, which lets nobody in")
+    finally:
+        process.kill()
+        process.wait(PATIENCE_S)
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])

@@ -9,7 +9,7 @@ from time import monotonic
 import msgspec
 import pytest
 
-from comms.keys import RECORDER, Keys
+from comms.keys import Keys
 from comms.status import Activity, AgentStatus
 from missions.daemons import feed
 from missions.daemons.crew import STRANGE, CrewError
@@ -63,8 +63,8 @@ class Mission:
         kept = {"tick": tick, "recording": f"{life}.rrd", "fingerprint": fingerprint, "life": life, **more}
         self.bus.publish(KEYS.kept, msgspec.msgpack.encode(msgspec.convert(kept, Kept)))
 
-    def appear(self, *, is_there: bool = True) -> None:
-        self.bus.appear(KEYS.alive(RECORDER), is_there=is_there)
+    def appear(self, *, life: int = 1, is_there: bool = True) -> None:
+        self.bus.appear(KEYS.recorder(life), is_there=is_there)
 
     def observe(self, ticks: range) -> None:
         for tick in ticks:
@@ -188,6 +188,18 @@ def test_a_second_one_looks_on_and_nothing_that_it_says_counts() -> None:
     assert mission.feed.failures == []
     assert mission.begun == 1
     assert str(mission.feed.recording) == "1.rrd"
+
+
+@pytest.mark.parametrize("gone", [1, 2])
+def test_who_looks_on_neither_hides_that_the_recorder_goes_nor_stands_for_it(gone: int) -> None:
+    mission = Mission()
+    for life in (1, 2):
+        mission.appear(life=life)
+        mission.say(life=life)
+    mission.appear(life=gone, is_there=False)
+    mission.observe(range(3))
+    assert bool(mission.feed.failures) is (gone == 1)
+    assert mission.passed_on == ([] if gone == 1 else [0, 1, 2])
 
 
 def test_who_is_asked_to_end_waits_for_no_recorder() -> None:

@@ -82,10 +82,11 @@ def test_a_stolen_key_does_not_speak_for_others(net: Net) -> None:
     for key in (KEYS.every_tx, KEYS.every_done, KEYS.kept):
         net.router.subscribe(key, lambda key, payload: heard.append(key))
     there: list[str] = []
-    net.router.watch(KEYS.every_alive, lambda key, is_there: there.append(key))
+    for key in (KEYS.every_alive, KEYS.every_recorder):
+        net.router.watch(key, lambda key, is_there: there.append(key))
     thief = net.client("agent-1")
-    for who in (2, WORLD, RECORDER, 1):
-        thief.declare_alive(KEYS.alive(who))
+    for token in (KEYS.alive(2), KEYS.alive(WORLD), KEYS.recorder(7), KEYS.alive(1)):
+        thief.declare_alive(token)
     forbidden = [KEYS.tx(2), KEYS.done(2), KEYS.kept, KEYS.rx(2), KEYS.cue(2), KEYS.truth]
     puts = [thief.publisher(key) for key in (*forbidden, KEYS.done(1), KEYS.tx(1))]
 
