@@ -1,14 +1,15 @@
 """`swarm agent`: one agent with its vehicle in a process of its own, or several on one session.
 
 It says hello until the world cues it, and then does a tick for each cue. Asked to end, it flies home, lands, and goes.
-Where another process is the agent already, the world does not let it in, and it goes at once.
+Where another process is the agent already, the world does not let it in, and it goes: at once, or when it has brought
+down what it flies, unless the other one flies that, too.
 While the world is silent it holds still on its own clock (`seat`, `contact`) and says hello; after the mission's
 `agents.world_timeout_s` it flies home, and so it does when the world ends.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from math import inf
 from time import monotonic, sleep
 
@@ -30,7 +31,7 @@ from missions.daemons.orders import Verb, encode_answer
 from missions.daemons.questions import Questions
 from missions.daemons.seat import Seat
 from missions.daemons.security import silence
-from missions.daemons.wire import OVER, decode_cue
+from missions.daemons.wire import OVER, TAKEN, decode_cue
 from missions.ending import Ending
 from missions.exit_codes import BAD_INPUT, FAILED, STOPPED
 from missions.links import open_transports
@@ -46,6 +47,8 @@ HELLO_EVERY_S = 0.1
 MOST_AT_ONCE = 20  # ticks that are made up for before it listens again
 FRAMES_LATE_S = 10.0  # frames that are under way and do not come for so long are lost
 FRAME_LOOK_S = 1e-4
+HOME_FIRST = "its vehicle is in the air: flying home first"
+LEFT_TO_OTHER = "its vehicle is in the air, and is left to the other process"
 
 
 def agent(mission: Mission, uids: Sequence[int], options: DaemonOptions) -> int:
@@ -106,6 +109,7 @@ class _Daemon:
         self._gone_at_s: float | None = None
         self._is_world_there = False
         self._is_closing = False
+        self._hide: dict[int, Callable[[], None]] = {}  # takes back that an agent is there
         self._seats = {uid: self._seat(uid, started_tick=0) for uid in self._radios}
 
     def run(self) -> int:
@@ -113,7 +117,7 @@ class _Daemon:
         bus, keys = self._bus, self._keys
         for uid in self._seats:
             bus.subscribe(keys.cue(uid), lambda key, payload: self._mail.put(sender(key), payload))
-            bus.declare_alive(keys.alive(uid))
+            self._hide[uid] = bus.declare_alive(keys.alive(uid))
             self._questions.take_at(bus, keys.every_command(uid), uid)
         bus.watch(keys.alive(WORLD), self._on_world)
         tell_of_flight(bus, keys, self._log)
@@ -137,7 +141,7 @@ class _Daemon:
                     )
                     return FAILED
             elif self._is_closing or self._is_world_lost():
-                self._fly_home()
+                self._end_with_world()
             else:
                 self._go_on_alone()
         return STOPPED if self._ending.interrupted else max(seat.code for seat in self._seats.values())
@@ -190,10 +194,25 @@ class _Daemon:
         if newest is None:
             return
         if newest.refused:
-            self._log.say(Level.ERROR, newest.refused, who=agents_name([seat.uid]))
-            seat.end(BAD_INPUT)
+            self._turn_away(seat, newest.refused)
         else:
             self._heed(seat, newest)
+
+    def _turn_away(self, seat: Seat, why: str) -> None:
+        """The world does not let it in, and never will."""
+        who = agents_name([seat.uid])
+        self._log.say(Level.ERROR, why, who=who)
+        self._hide[seat.uid]()  # or nobody would notice the death of the one that is there
+        aloft = [other for other in self._flying() if other.is_aloft]
+        if why == TAKEN:
+            seat.side.tap = None  # the other one keeps the log
+            aloft = [seat] if seat.is_aloft else []
+        if aloft and why == TAKEN and seat.uid in self._transports:
+            self._log.say(Level.ERROR, LEFT_TO_OTHER, who=who)
+        elif aloft:
+            self._log.say(Level.ERROR, HOME_FIRST, who=who)
+            self._fly_home(aloft, code=BAD_INPUT)
+        seat.end(BAD_INPUT)
 
     def _heed(self, seat: Seat, cue: Cue) -> None:
         """Do the tick of a cue."""
@@ -256,24 +275,29 @@ class _Daemon:
         is_awaited = lockstep or is_local(self._options.endpoint)
         return is_awaited and monotonic() - gone_at_s > await_world_s(self._mission, self._options)
 
-    def _fly_home(self) -> None:
-        """The world has ended, and with it the clock: who is still up comes down by itself."""
+    def _end_with_world(self) -> None:
+        """The world has ended: who is still up comes down by itself."""
         for seat in self._flying():
             seat.over = seat.activity is Activity.LANDED
-        if not self._flying():
-            return
-        self._log.error("the world has gone: flying home")
+        if flying := self._flying():
+            self._log.error("the world has gone: flying home")
+            self._fly_home(flying, code=FAILED)
+
+    def _fly_home(self, seats: Sequence[Seat], *, code: int) -> None:
+        """Bring these down, whom nobody tells the time any more; they end with that code."""
         tick_s = self._mission.tick_s
-        pace: Pace = RealTime(tick_s=tick_s, speed=1.0) if self._transports else Lockstep()
-        first = max(seat.last.tick for seat in self._seats.values()) + 1
+        linked = any(seat.uid in self._transports for seat in seats)
+        pace: Pace = RealTime(tick_s=tick_s, speed=1.0) if linked else Lockstep()
+        first = max((seat.last.tick for seat in seats), default=0) + 1
         for tick in range(first, first + round(RETURN_LIMIT_S / tick_s)):
+            flying = [seat for seat in seats if not seat.over]
+            if not flying:
+                break
             pace.begin(tick)
-            for seat in self._flying():
+            for seat in flying:
                 seat.orders.take(Verb.STOP, seat.activity)
                 self._say(seat, seat.do(seat.contact.come_home(tick)).status.events)
                 if seat.over or seat.has_ended:
-                    seat.end(FAILED)
-            if not self._flying():
-                break
-        for seat in self._flying():
-            seat.end(FAILED)
+                    seat.end(code)
+        for seat in seats:
+            seat.end(code)

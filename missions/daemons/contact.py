@@ -26,14 +26,17 @@ class Contact:
 
     Args:
         period_s: wall seconds a tick; None: in lockstep.
+        has_own_radio: its mates hear it without the world, too. Otherwise it is silent where the world is: nobody would
+            hear it, or all would, while another process has taken its place.
 
     Attributes:
         last: the last cue that was heeded.
     """
 
-    def __init__(self, *, period_s: float | None) -> None:
+    def __init__(self, *, period_s: float | None, has_own_radio: bool = False) -> None:
         self.last: Cue | None = None
         self._period_s = period_s
+        self._is_silent = not has_own_radio
         self._heard_at_s = 0.0
         self._quickest_s = inf  # when tick 0 would have come, had it come as quickly as any
         self._judged_at_s = 0.0
@@ -64,7 +67,9 @@ class Contact:
 
     def alone(self, next_tick: int, now_s: float) -> Cue | None:
         """The agent's own cue for this tick, once it is due."""
-        return None if self.last is None or now_s < self.due_s(next_tick) else _held(self.last, next_tick)
+        if self.last is None or now_s < self.due_s(next_tick):
+            return None
+        return structs.replace(_held(self.last, next_tick), silent=self._is_silent)
 
     def come_home(self, tick: int) -> Cue:
         """The agent's own cue for a tick after the world has ended."""

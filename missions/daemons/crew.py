@@ -19,15 +19,13 @@ from comms.mailbox import Mailbox
 from comms.session import Network
 from comms.status import Activity, Event, Level
 from missions.daemons.member import Member
-from missions.daemons.wire import OVER, decode_done, encode
+from missions.daemons.wire import OVER, STRANGE, TAKEN, decode_done, encode
 from missions.sides.exchange import HELLO_TICK, Cue, Done
 from missions.sides.medium import Medium
 
 LOOK_S = 0.2
 AWAKE_S = 1.0  # between two looks of ours; what is more, we have stood still ourselves
 FRAME_LOOK_S = 1e-4
-STRANGE = "has another mission, or another --speed, and is not let in: are its file and options the world's?"
-TAKEN = "is there already, in another process, which goes on: a second one is not let in"
 BACK = "its process is back"
 DIED = "its process has died, or its link is cut"
 LEFT_IN_AIR = "its process has left, and its vehicle is in the air"

@@ -12,8 +12,8 @@ import msgspec
 from comms.keys import Keys
 from comms.session import Network
 from comms.status import Event, Level
-from missions.daemons.crew import STRANGE, CrewError
-from missions.daemons.wire import OVER, encode
+from missions.daemons.crew import CrewError
+from missions.daemons.wire import OVER, STRANGE, encode
 from missions.observation import Observation
 
 WINDOW_TICKS = 100  # lockstep lets the recorder fall behind so far, and then waits for it

@@ -32,7 +32,7 @@ LOOK_EVERY_S = 0.1
 LANDING_S = RETURN_LIMIT_S + 60.0
 SAY_EVERY_S = 30.0
 GOING_S = 3.0  # from a request to end until that is forced
-TAKEN = "; another mission may listen there, as every launch with --speed does: --listen names another port"
+OCCUPIED = "; another mission may listen there, as every launch with --speed does: --listen names another port"
 
 
 class _Child:
@@ -162,5 +162,5 @@ def _check_free(endpoint: str) -> None:
             pass
     except (OSError, OverflowError, UnicodeError) as error:
         is_taken = isinstance(error, OSError) and error.errno == errno.EADDRINUSE
-        hint = TAKEN if is_taken else ""
+        hint = OCCUPIED if is_taken else ""
         raise InputError(f"--listen: got {endpoint}; allowed: a free port of this machine ({error}){hint}") from error

@@ -37,7 +37,7 @@ class Seat(Attended):
 
     def __init__(self, side: AgentSide, put: Put, mission: Mission, *, life: int, period_s: float | None) -> None:
         super().__init__(side, tick_s=mission.tick_s)
-        self.contact = Contact(period_s=period_s)
+        self.contact = Contact(period_s=period_s, has_own_radio=bool(mission.radio.endpoints))
         self.met = False
         self.away = False
         self.over = False

@@ -13,6 +13,9 @@ from missions.sides.exchange import Cue, Done
 
 MAX_BYTES = 1_000_000
 OVER = b""  # in place of a cue or an observation: the mission is over
+# Why the world does not let a process in.
+STRANGE = "has another mission, or another --speed, and is not let in: are its file and options the world's?"
+TAKEN = "is there already, in another process, which goes on: a second one is not let in"
 
 T = TypeVar("T")
 

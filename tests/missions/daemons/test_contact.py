@@ -65,6 +65,15 @@ def test_alone_it_holds_still_and_its_clocks_go_on() -> None:
     assert cue.frames is None
 
 
+@pytest.mark.parametrize("has_own_radio", [False, True])
+def test_alone_it_speaks_to_those_alone_who_hear_it_without_the_world(has_own_radio: bool) -> None:
+    contact = Contact(period_s=PERIOD_S, has_own_radio=has_own_radio)
+    contact.hear(Cue(tick=5), 3.0)
+    cue = contact.alone(20, 5.0)
+    assert cue is not None
+    assert cue.silent is not has_own_radio
+
+
 def test_who_comes_home_goes_on_coming_home() -> None:
     contact = Contact(period_s=PERIOD_S)
     contact.hear(Cue(tick=5, come_home=True), 3.0)

@@ -12,8 +12,8 @@ from msgspec import structs
 from comms.keys import Keys
 from comms.status import Activity, AgentStatus, Event, Level
 from missions.daemons import member
-from missions.daemons.crew import BACK, DIED, LEFT_IN_AIR, STRANGE, TAKEN, CrewError, Patience, RemoteCrew
-from missions.daemons.wire import decode_cue, encode
+from missions.daemons.crew import BACK, DIED, LEFT_IN_AIR, CrewError, Patience, RemoteCrew
+from missions.daemons.wire import STRANGE, TAKEN, decode_cue, encode
 from missions.observation import AgentTruth
 from missions.sides.exchange import HELLO_TICK, Cue, Done, LinkCount
 from missions.sides.medium import OpenField

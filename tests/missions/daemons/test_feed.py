@@ -12,9 +12,9 @@ import pytest
 from comms.keys import Keys
 from comms.status import Activity, AgentStatus
 from missions.daemons import feed
-from missions.daemons.crew import STRANGE, CrewError
+from missions.daemons.crew import CrewError
 from missions.daemons.feed import UNAWAITED, WINDOW_TICKS, Feed, Kept
-from missions.daemons.wire import OVER, decode_observation
+from missions.daemons.wire import OVER, STRANGE, decode_observation
 from missions.observation import AgentTruth, Observation, Phase
 from tests.missions.daemons.fake_bus import FakeBus
 

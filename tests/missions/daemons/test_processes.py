@@ -11,9 +11,10 @@ from typing import Any
 
 import pytest
 
-from missions.daemons.crew import TAKEN
+from missions.daemons.agent import HOME_FIRST
 from missions.daemons.feed import UNAWAITED
 from missions.daemons.options import fingerprint
+from missions.daemons.wire import TAKEN
 from missions.flightlog import FlightLog
 from missions.load import load_mission
 from missions.tlog import log_of
@@ -263,14 +264,34 @@ def test_a_second_process_of_an_agent_says_why_it_goes_and_changes_nothing(tmp_p
         swarm("world", *mission, "--listen", endpoint, "--report", str(two)) as world,
         swarm(*connect, "1") as first,
     ):
+        world.wait_for("and waits for 3 agents")  # from here on it hears who says hello first
         first.wait_for("ready")
         with swarm(*connect, "1") as second:
-            assert second.wait() == 2, second.output
+            assert second.wait() == 2, second.output + first.output
             assert TAKEN in second.output
         with swarm(*connect, "0") as other, swarm(*connect, "2") as another:
             assert [process.wait() for process in (world, first, other, another)] == [0, 0, 0, 0], world.output
     assert first.output.count("landed and disarmed") == 1
     assert decided(one) == decided(two)
+
+
+def test_who_stood_still_and_was_replaced_brings_down_what_it_flew() -> None:
+    endpoint = free_endpoint()
+    mission = ("quickstart", *SMALL, "--speed", "4", "--duration", str(FOR_EVER_S), "--log-level", "info")
+    connect = ("agent", *mission, "--connect", endpoint, "--id")
+    with (
+        swarm("world", *mission, "--listen", endpoint) as world,
+        swarm(*connect, "0-1"),
+        swarm(*connect, "2") as first,
+    ):
+        world.wait_for("the mission begins")
+        first.process.send_signal(signal.SIGSTOP)
+        world.wait_for('who=agent-2 text="no answer for')
+        with swarm(*connect, "2"):
+            world.wait_for('who=agent-2 text="its process is back"')
+            first.process.send_signal(signal.SIGCONT)
+            assert first.wait() == 2, first.output
+            assert [text for text in (TAKEN, HOME_FIRST, "landed and disarmed") if text not in first.output] == []
 
 
 def test_a_world_that_waits_for_its_recording_can_be_stopped(tmp_path: Path) -> None:
