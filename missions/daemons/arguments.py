@@ -23,9 +23,8 @@ AGENT = """examples:
   swarm agent my.yaml --id 0 --connect tcp/10.0.0.5:7447 --keys keys
   swarm agent field.yaml --id 0 --alone              no world: then swarm resume, on the same computer (docs/field.md)
 
-The mission, what changes it, and --speed must be the world's. Ends when the world says that the mission is over.
-SIGTERM: fly home, land, disarm, exit 0; a second one: at once. Who does not hear the world holds still for the
-mission's agents.world_timeout_s; then, or when the world ends, it flies home, and the code is 1."""
+The mission, what changes it, and --speed must be the world's, and so is the end. SIGTERM: fly home, land, exit 0; a
+second one: at once. Who hears no world holds still for agents.world_timeout_s, and then flies home: code 1."""
 
 RECORD = """examples:
   swarm record quickstart --record out/q.rrd
@@ -83,8 +82,8 @@ def agent_options(parser: Parser) -> Parser:
     about = f"without a world: listen there for people and detectors ({ENDPOINT}), in UTC, from swarm resume on"
     parser.add_argument("--alone", nargs="?", const=ENDPOINT, metavar="ENDPOINT", help=about)
     parser.add_argument("--tlog", type=Path, metavar="DIR", help="add to a log of each link there, for MAVProxy")
-    about = "when the mission clock was 0, for times of these logs (such that the first frame comes now)"
-    parser.add_argument("--tlog-began", type=unix_time, metavar="UNIX_S", help=about)
+    about = "the mission clock's 0 there, in seconds since 1970"
+    parser.add_argument("--tlog-began", type=unix_time, metavar="S", help=about)
     _add_insecure(parser)
     return _add_daemon(parser, "--connect", "where the world listens")
 
