@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from math import hypot, inf
 
 from comms.cells import Cells
@@ -45,6 +45,13 @@ class HelpCount:
     taken_over: int = 0
     pursued: int = 0
     found_again: int = 0
+
+
+# Their names, in the order in which a study keeps them as rows of numbers; and where in the row each is.
+EVENT_COUNTS = tuple(one.name for one in fields(EventCount))
+HELP_COUNTS = tuple(one.name for one in fields(HelpCount))
+TARGET_LOSS, TARGET_DISCOVERY, TAG_SWITCH = range(len(EVENT_COUNTS))
+CALLS, ANSWERED, CAPTURED, TAKEN_OVER, PURSUED, FOUND_AGAIN = range(len(HELP_COUNTS))
 
 
 @dataclass(frozen=True, slots=True)

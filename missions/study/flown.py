@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
+from missions.metrics import EVENT_COUNTS, HELP_COUNTS
 from missions.mission import Mission
 
 if TYPE_CHECKING:
@@ -22,17 +23,7 @@ if TYPE_CHECKING:
 Ints = npt.NDArray[np.int64]
 Floats = npt.NDArray[np.float64]
 
-COUNTS = (
-    "target_loss",
-    "target_discovery",
-    "tag_switch",
-    "calls",
-    "answered",
-    "captured",
-    "taken_over",
-    "pursued",
-    "found_again",
-)
+COUNTS = (*EVENT_COUNTS, *HELP_COUNTS)
 
 
 @dataclass(frozen=True, slots=True)

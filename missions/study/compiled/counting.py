@@ -2,7 +2,18 @@
 
 from __future__ import annotations
 
-from missions.metrics import CALL_PAUSE_S
+from missions.metrics import (
+    ANSWERED,
+    CALL_PAUSE_S,
+    CALLS,
+    CAPTURED,
+    FOUND_AGAIN,
+    PURSUED,
+    TAG_SWITCH,
+    TAKEN_OVER,
+    TARGET_DISCOVERY,
+    TARGET_LOSS,
+)
 from missions.study.compiled.rules import inlined
 from missions.study.compiled.state import Flock, Kept, Said
 from swarm_agent.bcmommt.belief import NOBODY, Table
@@ -20,7 +31,7 @@ def count(kept: Kept, tables: Table, f: Flock, said: Said, k: int, now: float) -
     for i in range(m):
         for c in range(said.n_calls[i]):
             j = said.call[i, c]
-            kept.help[0] += now - f.called_at[i, j] > CALL_PAUSE_S
+            kept.help[CALLS] += now - f.called_at[i, j] > CALL_PAUSE_S
             f.called_at[i, j] = now
         old, new = f.helping[i], said.answer[i]
         if new != old:
@@ -28,7 +39,7 @@ def count(kept: Kept, tables: Table, f: Flock, said: Said, k: int, now: float) -
                 _count_end(kept, tables, f, said, i, old)
             if new != NOBODY:
                 f.pursuing[i] = tables.calling[i, new]
-                kept.help[4 if f.pursuing[i] else 1] += 1
+                kept.help[PURSUED if f.pursuing[i] else ANSWERED] += 1
     for i in range(m):
         f.helping[i] = said.answer[i]
 
@@ -37,9 +48,9 @@ def count(kept: Kept, tables: Table, f: Flock, said: Said, k: int, now: float) -
 def _count_end(kept: Kept, tables: Table, f: Flock, said: Said, i: int, j: int) -> None:
     """How it ended that agent i went after target j."""
     if tables.tagged[i, j]:
-        kept.help[5 if f.pursuing[i] else 2] += 1
+        kept.help[FOUND_AGAIN if f.pursuing[i] else CAPTURED] += 1
     elif not f.pursuing[i]:
-        kept.help[3] += _is_answered(said, j)
+        kept.help[TAKEN_OVER] += _is_answered(said, j)
 
 
 @inlined
@@ -64,9 +75,9 @@ def _count_events(kept: Kept, tables: Table, f: Flock) -> None:
             has |= tables.tagged[i, j]
             dropped |= f.owned[i, j] and not tables.tagged[i, j]
             f.owned[i, j] = tables.tagged[i, j]
-        kept.events[0] += had and not has
-        kept.events[1] += has and not had
-        kept.events[2] += had and has and dropped
+        kept.events[TARGET_LOSS] += had and not has
+        kept.events[TARGET_DISCOVERY] += has and not had
+        kept.events[TAG_SWITCH] += had and has and dropped
 
 
 @inlined

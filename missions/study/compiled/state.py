@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from missions.metrics import EVENT_COUNTS, HELP_COUNTS
 from swarm_agent.bcmommt.belief import FAR, NEVER, NOBODY, Table
 
 EVASIVE, RANDOM, STATIC, REPLAY = 0, 1, 2, 3
@@ -170,8 +171,8 @@ class Kept(NamedTuple):
 
     seen: Array  # (T)
     present: Array  # (T)
-    events: Array  # (3)
-    help: Array  # (6)
+    events: Array  # (3): `missions.metrics.EVENT_COUNTS`
+    help: Array  # (6): HELP_COUNTS
     agents: Array  # (T, m, 2)
     targets: Array  # (T, n, 2)
     tagged: Array  # (T, m, n)
@@ -185,8 +186,8 @@ def new_kept(ticks: int, m: int, n: int, keep_all: bool) -> Kept:
     return Kept(
         seen=np.zeros(ticks, np.int32),
         present=np.zeros(ticks, np.int32),
-        events=np.zeros(3, np.int64),
-        help=np.zeros(6, np.int64),
+        events=np.zeros(len(EVENT_COUNTS), np.int64),
+        help=np.zeros(len(HELP_COUNTS), np.int64),
         agents=np.zeros((more, m, 2)),
         targets=np.zeros((more, n, 2)),
         tagged=np.zeros((more, m, n), np.bool_),

@@ -10,6 +10,7 @@ np = pytest.importorskip("numpy")
 pytest.importorskip("numba")
 
 from missions import compose  # noqa: E402
+from missions.metrics import ANSWERED  # noqa: E402
 from missions.study.compiled.foresight import foresee, new_future  # noqa: E402
 from missions.study.compiled.state import Setup, new_flock, new_tables  # noqa: E402
 from missions.study.engine import fly_many, fly_setup, setup_of  # noqa: E402
@@ -74,7 +75,7 @@ def test_a_referee_sends_helpers_as_agents_send_themselves(answering: str) -> No
         velocities=[(0.0, -0.3), (0.0, 0.3)],
     )
     kept = fly_setup(setup, compose.params(mission(policy)), keep_all=True)
-    assert kept.help[1] > 0
+    assert kept.help[ANSWERED] > 0
     assert kept.sensed.any(axis=1).all()
 
 
@@ -90,7 +91,7 @@ def test_a_referee_hears_beyond_the_radio() -> None:
     for answering in ("distributed", "optimal"):
         policy = f"policy={{call: all_but_nearest, answering: {answering}, help_margin_s: 40, memory_s: 0}}"
         setup = replayed(mission(*far, "duration_s=1"), **start)
-        answered[answering] = fly_setup(setup, compose.params(mission(policy, *far)), keep_all=False).help[1]
+        answered[answering] = fly_setup(setup, compose.params(mission(policy, *far)), keep_all=False).help[ANSWERED]
     assert answered == {"distributed": 0, "optimal": 1}
 
 

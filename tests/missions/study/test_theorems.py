@@ -10,6 +10,7 @@ np = pytest.importorskip("numpy")
 pytest.importorskip("numba")
 
 from missions import compose  # noqa: E402
+from missions.metrics import ANSWERED  # noqa: E402
 from missions.study.compiled.state import Kept  # noqa: E402
 from missions.study.engine import fly_many  # noqa: E402
 from swarm_agent.bcmommt.profiles import greatest_standoff_m  # noqa: E402
@@ -57,7 +58,7 @@ def test_theorem_1_the_boundary_is_where_capture_takes_as_long_as_the_loss() -> 
         for mate_m in (BOUNDARY_M + 0.1, 7.5, 9.0):
             kept = two_targets(mate_m=mate_m, seed=seed, policy=AS_PRINTED)
             assert first_unseen_s(kept, 1) == pytest.approx(LOSS_S, abs=0.1)
-            assert kept.help[1] == 0  # nobody can answer in time
+            assert kept.help[ANSWERED] == 0  # nobody can answer in time
 
 
 def test_theorem_1_the_margin_printed_in_algorithm_1_starts_too_late() -> None:
