@@ -105,7 +105,10 @@ class Guard:
             del self._mates[uid]
 
     def safe(self, now_s: float, position_m: Vec3, velocity_m_s: Vec3, wish_m_s: Velocity) -> Velocity:
-        """The velocity to fly (east, north): the wish, the same numbers, where no wall forbids it.
+        """The velocity to fly (east, north): the wish, the same numbers, while no wall in reach forbids it.
+
+        Once a wall has bent a wish, what is flown is turned by acceleration only, also towards a wish that no wall
+        forbids, until all walls are out of reach.
 
         Args:
             velocity_m_s: how the vehicle flies now.
