@@ -93,12 +93,11 @@ def record(mission: Mission, options: argparse.Namespace) -> int:
 
 def launch(mission: Mission, options: argparse.Namespace) -> int:
     """Start all processes of a mission, and stay until it is over."""
-    for option, given in (("--gcs", options.gcs), ("--gcs-signing-key", options.gcs_signing_key)):
-        if given:
-            raise InputError(
-                f"{option}: not with --processes, where each vehicle is in another process; allowed: a launch without "
-                "it, or --tlog, --record, --view, --web"
-            )
+    if options.gcs or options.gcs_signing_key:
+        raise InputError(
+            "--gcs: not with --processes, where each vehicle is in another process; allowed: a launch without "
+            "--processes, or without --gcs and --gcs-signing-key"
+        )
     from missions.daemons.launcher import run_processes
 
     endpoint = options.listen or ENDPOINT
