@@ -13,8 +13,8 @@ import rerun as rr
 from missions.flightlog import Entry
 from missions.problems import OutputError
 from missions.recording.logbook import Logbook, is_vehicle, sender_of
+from missions.recording.names import unfinished
 from missions.recording.optimize import optimize
-from missions.recording.parts import unfinished
 from missions.recording.tape import APPLICATION_ID
 
 _STRETCH = 20_000  # messages that are in memory at a time

@@ -1,21 +1,19 @@
-"""The files of one recording: `F.rrd`, and where a mission was long `F.0002.rrd`, `F.0003.rrd`, one after the other.
-
-What is being written has `.part` behind its name. Whoever asks for `F.rrd` gets all of them.
-"""
+"""The files of a recording, written one after the other."""
 
 from __future__ import annotations
 
 import logging
 import os
 import threading
-from collections.abc import Iterator, Sequence
-from itertools import chain, count, takewhile
+from collections.abc import Sequence
+from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from missions.recording.blueprint import blueprint
+from missions.recording.crashed import keep_crashed
+from missions.recording.names import later, numbered, unfinished
 from missions.recording.optimize import optimize
-from missions.recording.repair import repair
 from missions.recording.scene import Scene
 from missions.recording.stage import set_stage
 from missions.recording.tape import APPLICATION_ID, Tape
@@ -25,36 +23,12 @@ from missions.recording.tape import APPLICATION_ID, Tape
 _PART_S = 900.0
 _SMALL_SWARM = 100  # agents and targets
 _SHORTEST_S = 60.0
-_UNFINISHED = ".part"
 _log = logging.getLogger(__name__)
 
 
 def usual_part_s(scene: Scene) -> float:
     """The mission time that one file of this swarm should hold at most, seconds."""
     return max(_SHORTEST_S, _PART_S * min(1.0, _SMALL_SWARM / (scene.n_agents + scene.n_targets)))
-
-
-def unfinished(path: Path) -> Path:
-    """What a file is called while it is written."""
-    return path.with_name(path.name + _UNFINISHED)
-
-
-def numbered(path: Path, number: int) -> Path:
-    """The `number`-th file, from 1, of the recording `path`."""
-    return path if number == 1 else path.with_name(f"{path.stem}.{number:04d}{path.suffix}")
-
-
-def parts_of(path: Path) -> Sequence[Path]:
-    """`path` and the files that go on where it ends; the last may be unfinished."""
-    return [path, *chain.from_iterable(files[:1] for files in _later(path))]
-
-
-def _later(path: Path) -> Iterator[Sequence[Path]]:
-    """For each further part, until one is missing, the files that are there: finished, being written, or both."""
-    first = path.with_name(path.name.removesuffix(_UNFINISHED))
-    names = (numbered(first, number) for number in count(2))
-    files = ([part for part in (name, unfinished(name)) if part.is_file()] for name in names)
-    return takewhile(bool, files)
 
 
 class Parts:
@@ -93,8 +67,7 @@ class Parts:
         """
         self._number += 1
         if self._number == 1:
-            if self.being_written.exists():
-                self._keep_the_crashed()
+            keep_crashed(self._path)
             self.tape = Tape(self._scene)
             self.tape.write(self.being_written, blueprint(self._scene, live=False))
         else:
@@ -110,7 +83,7 @@ class Parts:
         path = numbered(self._path, self._number)
         if self._number == 1:
             # What an older recording of this name left would be taken for parts of this one.
-            for old in chain.from_iterable(_later(self._path)):
+            for old in chain.from_iterable(later(self._path)):
                 old.unlink()
         os.replace(self.being_written, path)
         views = [] if self._number == 1 else [self._view]
@@ -127,15 +100,6 @@ class Parts:
     @property
     def _view(self) -> Path:
         return Path(self._folder.name) / "view.rbl"
-
-    def _keep_the_crashed(self) -> None:
-        """The flight before never ended, and its recording may be what somebody will ask for."""
-        kept = self._path.with_name(f"{self._path.stem}.crashed{self._path.suffix}")
-        try:
-            repair(self.being_written, kept)
-            _log.warning("%s, of a flight that never ended, is now %s", self.being_written, kept)
-        except RuntimeError as error:
-            _log.warning("%s, of a flight that never ended, is replaced: %s", self.being_written, error)
 
 
 def _pack(path: Path, views: Sequence[Path]) -> None:

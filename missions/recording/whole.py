@@ -12,7 +12,7 @@ from tempfile import TemporaryDirectory
 from rerun.chunk import RrdReader
 
 from missions.problems import InputError
-from missions.recording.parts import parts_of, unfinished
+from missions.recording.names import parts_of, unfinished
 from missions.recording.repair import repair
 
 # What stands before the very end of a file, behind the index; a file that was not closed has no index.

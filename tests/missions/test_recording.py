@@ -22,8 +22,10 @@ from comms.status import Activity, AgentStatus, Event, HelpCallStatus, Level
 from missions.observation import Observation
 from missions.recording import Recorder, RecordingError, Scene, optimize
 from missions.recording.block import Block
+from missions.recording.names import begins_in
 from missions.recording.optimize import rerun_command
 from missions.recording.palette import ACTIVITY_INKS, GROUND, GROUND_FRESH, LEVEL_INKS
+from missions.recording.playback import play_back
 from missions.recording.shapes import ground_mesh
 from tests.missions.toy_observations import PREPARATION, toy_observations, toy_scene
 from tests.patience import PATIENCE_S, until
@@ -337,6 +339,54 @@ class TestTrouble:
         ticks = _column(tmp_path / "flight.crashed.rrd", "/world/agents/body", "Points3D:positions")
         assert len(ticks) > 20
         assert "flight.crashed.rrd" in caplog.text
+
+    @pytest.mark.parametrize("lost", [0, 100], ids=["whole", "torn"])
+    def test_all_files_of_a_crashed_flight_are_kept(
+        self, scene: Scene, observations: list[Observation], tmp_path: Path, caplog: pytest.LogCaptureFixture, lost: int
+    ) -> None:
+        path, more = tmp_path / "flight.rrd", tmp_path / "flight.0002.rrd"
+        for _ in range(2):  # what was kept of an older one goes
+            with Recorder(path, scene=scene, part_s=10.0) as recorder:
+                for observation in observations[:180]:
+                    recorder.observe(observation)
+            content = more.read_bytes()
+            more.with_name("flight.0002.rrd.part").write_bytes(content[: len(content) - lost])
+            more.unlink()
+        _record(path, scene, observations[:20])
+        kept = ["flight.crashed.0002.rrd", "flight.crashed.rrd", "flight.rrd"]
+        assert sorted(file.name for file in tmp_path.iterdir()) == kept
+        assert all(str(tmp_path / name) in caplog.text for name in kept[:2])
+        with play_back(tmp_path / "flight.crashed.rrd") as playback:
+            assert [seen.tick for seen in playback.observations()][:101] == list(range(101))
+
+    @pytest.mark.parametrize("content", [b"", b"no recording"])
+    def test_a_crashed_file_of_which_nothing_can_be_read_costs_the_others_nothing(
+        self, scene: Scene, observations: list[Observation], tmp_path: Path, content: bytes
+    ) -> None:
+        path = _record(tmp_path / "flight.rrd", scene, observations[:20])
+        path.with_name("flight.0002.rrd.part").write_bytes(content)
+        _record(path, scene, observations[:10])
+        with play_back(tmp_path / "flight.crashed.rrd") as playback:
+            assert len([*playback.observations()]) == 20
+
+    def test_a_crashed_flight_that_cannot_be_repaired_is_kept_as_it_is(
+        self, scene: Scene, observations: list[Observation], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        path = tmp_path / "flight.rrd"
+        path.with_name("flight.rrd.part").write_bytes(b"as it is")
+        monkeypatch.setenv("RERUN_CLI_PATH", str(tmp_path / "missing"))
+        _record(path, scene, observations[:10])
+        assert path.with_name("flight.crashed.rrd.part").read_bytes() == b"as it is"
+
+    def test_it_begins_in_a_file_that_is_there(
+        self, scene: Scene, observations: list[Observation], tmp_path: Path
+    ) -> None:
+        path = tmp_path / "flight.rrd"
+        with Recorder(path, scene=scene, part_s=1.0) as recorder:
+            assert begins_in(path) == tmp_path / "flight.rrd.part"
+            for observation in observations[:80]:
+                recorder.observe(observation)
+        assert begins_in(path) == path
 
     def test_a_place_that_cannot_be_written_is_an_error_at_once(self, scene: Scene, tmp_path: Path) -> None:
         with pytest.raises(RecordingError, match="nowhere"), Recorder(tmp_path / "nowhere" / "a.rrd", scene=scene):
