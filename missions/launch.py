@@ -40,6 +40,8 @@ from missions.tlog import Tlog, failures, tlogs
 from vehicle_sim.autopilot import SimulatedVehicle
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from missions.recording import Recorder
 
 # How often an agent tells a recorder what it knows; in a large swarm it takes longer until all have told.
@@ -74,7 +76,8 @@ def launch(mission: Mission, *, options: LaunchOptions) -> int:
             raise
         finally:
             if flight.side.tick > 0:
-                report = make_report(flight.side, metrics, wall_s=time.monotonic() - began_s, recording=options.record)
+                wall_s, recording = time.monotonic() - began_s, _kept_in(options.record)
+                report = make_report(flight.side, metrics, wall_s=wall_s, recording=recording)
                 publish(report, to=options.report, console=console)
     if ending.asked:
         return STOPPED if ending.interrupted else DONE
@@ -152,6 +155,15 @@ def _closed(recorder: Recorder, metrics: Metrics, flight: Flight) -> bool:
     if recorder.dropped:
         metrics.fault(flight.clock_s, None, f"the recorder was too slow: {recorder.dropped} ticks are missing")
     return not recorder.dropped
+
+
+def _kept_in(record: Path | None) -> Path | None:
+    """The recording's first file: an unfinished one, if something went wrong."""
+    if record is None:
+        return None
+    from missions.recording.names import begins_in
+
+    return begins_in(record)
 
 
 def _logged(logs: Collection[Tlog], metrics: Metrics, flight: Flight) -> bool:

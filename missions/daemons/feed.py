@@ -31,7 +31,8 @@ def _never() -> bool:
 class Kept(msgspec.Struct, frozen=True):
     """The recorder to the world: ticks up to this one are kept (-1: it is there), in that file; or why it failed.
 
-    closed: the file is whole, but for the ticks that were dropped. fingerprint: of the mission that it was given.
+    recording: the first file, which has another name until it is whole. closed: all is whole, but for the ticks that
+    were dropped. fingerprint: of the mission that it was given.
     life: of the recorder's process.
     """
 
@@ -86,7 +87,7 @@ class Feed:
 
     @property
     def recording(self) -> Path | None:
-        """Where the recorder keeps it."""
+        """Where the recorder kept it, when it was heard last."""
         kept = self._kept
         return Path(kept.recording) if kept is not None and kept.recording is not None else None
 

@@ -141,7 +141,10 @@ class _Reel:
 
     @property
     def _path(self) -> str | None:
-        return None if self._recorder.path is None else str(self._recorder.path)
+        """The recording's first file, which is unfinished as long as it is written."""
+        from missions.recording.names import begins_in
+
+        return None if self._recorder.path is None else str(begins_in(self._recorder.path))
 
     def _tell(self, kept: Kept) -> None:
         self._put(msgspec.msgpack.encode(structs.replace(kept, life=self._life)))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import subprocess
@@ -19,9 +20,12 @@ import rerun as rr
 from rerun.chunk import RrdReader
 
 from comms.status import Activity, AgentStatus, Event, HelpCallStatus, Level
+from missions.cli import main
+from missions.exit_codes import FAILED
 from missions.observation import Observation
 from missions.recording import Recorder, RecordingError, Scene, optimize
 from missions.recording.block import Block
+from missions.recording.ledger import Ledger
 from missions.recording.names import begins_in
 from missions.recording.optimize import rerun_command
 from missions.recording.palette import ACTIVITY_INKS, GROUND, GROUND_FRESH, LEVEL_INKS
@@ -387,6 +391,15 @@ class TestTrouble:
             for observation in observations[:80]:
                 recorder.observe(observation)
         assert begins_in(path) == path
+
+    def test_a_report_names_what_there_is_of_a_recording_that_failed(
+        self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        monkeypatch.setattr(Ledger, "rows", lambda self, block: 1 / 0)
+        report, files = tmp_path / "n.json", ["--report", str(tmp_path / "n.json"), "--record", str(tmp_path / "n.rrd")]
+        assert main(["launch", "narrow", "--duration", "1", "--set", "agents.count=1", *files]) == FAILED
+        named = Path(json.loads(report.read_text())["recording"])
+        assert (named.name, named.is_file()) == ("n.rrd.part", True)
 
     def test_a_place_that_cannot_be_written_is_an_error_at_once(self, scene: Scene, tmp_path: Path) -> None:
         with pytest.raises(RecordingError, match="nowhere"), Recorder(tmp_path / "nowhere" / "a.rrd", scene=scene):

@@ -45,6 +45,7 @@ def test_a_mission_goes_on_without_its_recorder_and_what_it_wrote_is_repaired(
     match = re.fullmatch(r"the recorder has gone: nothing is recorded from ([0-9.]+) s", what)
     assert match is not None, what
     assert not recording.exists()
+    assert told["recording"] == str(recording.with_name("q.rrd.part"))
     with play_back(recording.with_name("q.rrd.part")) as kept:
         assert kept.unfinished
         *_, last = kept.observations()
