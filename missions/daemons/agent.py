@@ -191,7 +191,7 @@ class _Daemon:
             cue = decode_cue(wire)
             if cue is not None and cue.life == self._life:
                 newest = cue
-        if newest is None:
+        if newest is None or seat.over:  # it may have come down with another one
             return
         if newest.refused:
             self._turn_away(seat, newest.refused)
