@@ -103,7 +103,7 @@ def test_observations_come_back_as_they_were_made(tmp_path: Path, part_s: float 
 
 def test_what_was_observed_is_in_memory_one_tick_at_a_time(tmp_path: Path) -> None:
     def alive() -> int:
-        return sum(isinstance(one, Observation) for one in gc.get_objects())
+        return sum(type(one) is Observation for one in gc.get_objects())
 
     scene = toy_scene()
     with Recorder(tmp_path / "toy.rrd", scene=scene, part_s=10.0) as recorder:
