@@ -16,7 +16,7 @@ from time import monotonic, sleep
 from comms.clock import Lockstep, Pace, RealTime
 from comms.credentials import agents_name
 from comms.endpoint import is_local
-from comms.keys import WORLD, Keys, sender, verb_of
+from comms.keys import WORLD, Keys, sender
 from comms.mailbox import Mailbox
 from comms.radio import Radio
 from comms.session import BusError, Network
@@ -27,7 +27,7 @@ from missions.daemons.airwaves import open_airwaves
 from missions.daemons.joining import new_life, open_world, tell_of_flight, unmet
 from missions.daemons.log import Log
 from missions.daemons.options import DaemonOptions, await_world_s, fingerprint
-from missions.daemons.orders import Verb, encode_answer
+from missions.daemons.orders import Verb
 from missions.daemons.questions import Questions
 from missions.daemons.seat import Seat
 from missions.daemons.security import silence
@@ -126,7 +126,7 @@ class _Daemon:
         while self._flying():
             self._greet()
             self._mail.wait(self._awaited(), timeout_s=self._patience_s())
-            self._answer()
+            self._questions.answer(lambda uid, word: self._seats[uid].obey(word))
             for uid, wires in self._mail.take().items():
                 self._take(self._seats[uid], wires)
             if not any(seat.met for seat in self._seats.values()):
@@ -245,11 +245,6 @@ class _Daemon:
     def _say(self, seat: Seat, events: Iterable[Event]) -> None:
         self._log.time_s = seat.last.tick * self._mission.tick_s
         self._log.events(events, who=agents_name([seat.uid]))
-
-    def _answer(self) -> None:
-        """What people have told us since the last tick."""
-        for uid, question in self._questions.waiting():
-            question.answer(encode_answer(self._seats[uid].obey(verb_of(question.key))))
 
     def _await_frames(self, computer: Computer, cue: Cue) -> None:
         due, deadline_s, now_s = computer.due(cue), monotonic() + FRAMES_LATE_S, cue.tick * self._mission.tick_s

@@ -16,7 +16,7 @@ from msgspec import structs
 from comms.access import Gate, Place
 from comms.clock import RealTime
 from comms.credentials import agents_name
-from comms.keys import Keys, verb_of
+from comms.keys import Keys
 from comms.session import BusError, Network, open_router
 from comms.sight import Eyes
 from comms.status import Activity
@@ -25,7 +25,7 @@ from missions.daemons.airwaves import open_airwaves
 from missions.daemons.attended import Attended
 from missions.daemons.log import Log
 from missions.daemons.options import DaemonOptions
-from missions.daemons.orders import Answer, Orders, Verb, encode_answer
+from missions.daemons.orders import Answer, Orders, Verb
 from missions.daemons.questions import Questions
 from missions.ending import Ending
 from missions.exit_codes import DONE, FAILED, STOPPED
@@ -150,8 +150,7 @@ class _Desk:
 
     def answer(self) -> None:
         """What people have asked and told since the last time."""
-        for uid, question in self._questions.waiting():
-            question.answer(encode_answer(self._obey(uid, verb_of(question.key))))
+        self._questions.answer(self._obey)
 
     def _obey(self, uid: int, word: str) -> Answer:
         if uid in self._crew:

@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, contextmanager
 
 from comms.access import Gate
-from comms.keys import FLIGHT, WORLD, Keys, verb_of
+from comms.keys import FLIGHT, WORLD, Keys
 from comms.session import BusError, Network, open_router
 from missions.daemons.attended import Attended
-from missions.daemons.orders import Answer, Verb, encode_answer
+from missions.daemons.orders import Answer, Verb
 from missions.daemons.questions import Questions
 from missions.ending import Ending
 from missions.observation import Observation
@@ -27,10 +27,12 @@ class MissionDesk:
 
     def is_closing(self) -> bool:
         """Whether anybody has asked for the end, in whatever way."""
-        for _, question in self._questions.waiting():
-            self._ending.ask()
-            question.answer(encode_answer(Answer(obeyed=True, text="everybody comes home")))
+        self._questions.answer(self._stop)
         return self._ending.asked
+
+    def _stop(self, whom: str, word: str) -> Answer:
+        self._ending.ask()
+        return Answer(obeyed=True, text="everybody comes home")
 
 
 class CrewDesk:
@@ -47,8 +49,7 @@ class CrewDesk:
 
     def observe(self, observation: Observation) -> None:
         """After a tick: answer what was asked and told in it."""
-        for uid, question in self._questions.waiting():
-            question.answer(encode_answer(self._crew[uid].obey(verb_of(question.key))))
+        self._questions.answer(lambda uid, word: self._crew[uid].obey(word))
 
 
 @contextmanager

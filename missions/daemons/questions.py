@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import queue
-from collections.abc import Iterator
+from collections.abc import Callable
 from contextlib import suppress
 from typing import Generic, TypeVar
 
+from comms.keys import verb_of
 from comms.session import Network, Question
+from missions.daemons.orders import Answer, encode_answer
 
 MAX_WAITING = 100
 
@@ -29,7 +31,12 @@ class Questions(Generic[Whom]):
 
         bus.answer(key_expression, keep)
 
-    def waiting(self) -> Iterator[tuple[Whom, Question]]:
-        """Whom each question is for, and the question, until none is left."""
+    def answer(self, obey: Callable[[Whom, str], Answer]) -> None:
+        """Answer what waits.
+
+        Args:
+            obey: is given whom a question is for, and its verb.
+        """
         while not self._waiting.empty():
-            yield self._waiting.get_nowait()
+            whom, question = self._waiting.get_nowait()
+            question.answer(encode_answer(obey(whom, verb_of(question.key))))

@@ -17,6 +17,7 @@ import numpy as np
 import pyarrow as pa
 
 from comms.status import Activity, AgentStatus, Event, HelpCallStatus, Level
+from missions.coverage import Coverage
 from missions.observation import AgentTruth, Observation, Phase, TargetTruth, Totals
 from missions.recording import ledger
 from missions.recording.charts import UNKNOWN
@@ -77,7 +78,7 @@ class Reel:
         self._doing = [Activity.PREPARING] * n_agents
         self._before: tuple[Sequence[Any], tuple[AgentStatus, ...]] = ((), ())  # from which values, which statuses
         self._last: tuple[int, Floats] | None = None
-        self._seen = self._present = 0
+        self._coverage = Coverage()
         self.damaged = 0
 
     def play(self, table: Table) -> Iterator[Observation]:
@@ -185,10 +186,11 @@ class Reel:
         for uid, event in self._words.until(tick):
             words[uid] = (*words.get(uid, ()), event)
         targets = self._targets_at(tick)
-        seen, present = sum(target.seen for target in targets), sum(target.present for target in targets)
         if on_duty:
-            self._seen, self._present = self._seen + seen, self._present + present
-        mean = self._seen / self._present if on_duty and self._present else None
+            self._coverage.add(
+                seen=sum(target.seen for target in targets), present=sum(target.present for target in targets)
+            )
+        mean = self._coverage.mean if on_duty else None
         return Observation(
             tick=tick,
             time_s=tick * facts.tick_s,
@@ -198,7 +200,7 @@ class Reel:
             truths=self._truths_at(tick),
             targets=targets,
             links=self._links.at(tick),
-            coverage=seen / present if on_duty and present else None,
+            coverage=self._coverage.now if on_duty else None,
             coverage_mean=mean,
             utilization=None if mean is None else mean * facts.targets / facts.agents,
             tick_late_s=self._late_s.at(tick),
