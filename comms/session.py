@@ -257,11 +257,11 @@ def open_client(
     """
     if n_peers:
         _receive_from(n_peers)
-    deadline_s, told = monotonic() + patience_s, False
+    deadline_s, told, call_s = monotonic() + patience_s, False, _CALL_S
     with ExitStack() as stack:
         while True:
             try:
-                session = stack.enter_context(_open(_calling(endpoint, credentials, deadline_s - monotonic())))
+                session = stack.enter_context(_open(_calling(endpoint, credentials, deadline_s - monotonic(), call_s)))
                 break
             except zenoh.ZError as error:
                 refused = round_trip_s(endpoint, timeout_s=_LOOK_S) is not None
@@ -272,14 +272,18 @@ def open_client(
                 failure = BusError(text, refused=refused)
                 if monotonic() >= deadline_s or stop():
                     raise failure from error
-                if refused and not told:
-                    told = True
-                    tell(failure)
+                if refused:
+                    # A router takes up no call by TLS for 100 ms after one that was broken off
+                    # (eclipse-zenoh/zenoh#2685): a few of us that call anew all the time would never be let in.
+                    call_s = _ATTEMPT_S
+                    if not told:
+                        told = True
+                        tell(failure)
         yield ZenohBus(session, lossless=lossless)
 
 
-def _calling(endpoint: str, credentials: Credentials | None, left_s: float) -> dict[str, Any]:
-    """The settings of one attempt to reach a router."""
+def _calling(endpoint: str, credentials: Credentials | None, left_s: float, call_s: float) -> dict[str, Any]:
+    """The settings of one attempt to reach a router, by calls of `call_s` each, or longer where the link is slow."""
     settings: dict[str, Any] = {
         "mode": "client",
         "connect/endpoints": [endpoint],
@@ -290,7 +294,7 @@ def _calling(endpoint: str, credentials: Credentials | None, left_s: float) -> d
     if not is_local(endpoint):
         # A call that is not answered must not wait for TCP, which asks again after 1, 3, 7 and 15 s.
         trip_s = round_trip_s(endpoint, timeout_s=_LOOK_S) or 0.0
-        answer_s = min(max(_CALL_S, _TRIPS_TO_OPEN * trip_s), _ATTEMPT_S)
+        answer_s = min(max(call_s, _TRIPS_TO_OPEN * trip_s), _ATTEMPT_S)
         settings |= _lease(endpoint) | {"transport/unicast/open_timeout": round(answer_s * 1000)}
     return settings | ({} if credentials is None else _proofs(credentials, "connect"))
 
