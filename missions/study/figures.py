@@ -21,11 +21,11 @@ from matplotlib.patheffects import withStroke
 from missions.plan import coverage_floor
 from missions.study.metrics import QUANTITIES, Quantity, Window
 from missions.study.model import Figure
-from missions.study.points import POLICY, Point, matches
+from missions.study.points import FAULTS, POLICY, Point, matches
 from missions.study.results import Results
 from missions.study.statistics import estimate, estimates
 from missions.study.store import write_whole
-from missions.study.style import DIM, STYLE, line_colors, marker, percent_axis, policy_colors
+from missions.study.style import DIM, STYLE, kind_colors, marker, percent_axis, policy_colors, scale_colors
 from missions.study.words import axis_words, point_words, telling_keys
 
 TIME = "time"
@@ -109,7 +109,10 @@ def _lines(points: Sequence[Point], keys: Sequence[str], figure: Figure) -> tupl
     for point in points:
         groups.setdefault(point_words(point, keys), []).append(point)
     policies = [_policy(group) for group in groups.values()]
-    colors = policy_colors(policies) if POLICY in keys or not keys else line_colors(len(groups))
+    if POLICY in keys or not keys:
+        colors = policy_colors(policies)
+    else:
+        colors = kind_colors(len(groups)) if FAULTS in keys else scale_colors(len(groups))
     lines = []
     for number, (name, group) in enumerate(groups.items()):
         if figure.x != TIME:

@@ -56,10 +56,15 @@ def policy_colors(names: Sequence[str]) -> list[str]:
     return [_KINDS[_POLICIES[name]] if name in _POLICIES else left[others.index(name) % len(left)] for name in names]
 
 
-def line_colors(count: int) -> list[Any]:
+def kind_colors(count: int) -> list[str]:
+    """Colors for lines that have names and no order."""
+    return [_KINDS[number % len(_KINDS)] for number in range(count)]
+
+
+def scale_colors(count: int) -> list[Any]:
     """Colors for lines that have an order, such as radii: a scale; two are told apart better by plain kinds."""
     if count < 3:
-        return [_KINDS[number % len(_KINDS)] for number in range(count)]
+        return kind_colors(count)
     scale = mpl.colormaps[_ORDERED]
     return [scale(0.12 + 0.88 * number / (count - 1)) for number in range(count)]
 
