@@ -106,7 +106,8 @@ class Schedule:
         return all(spell.end is not None for spell in stops if spell.holds(tick))
 
     def _all_at(self, tick: int, mission: Mission) -> Ills:
-        faults = [spell.fault for spell in self.spells if spell.holds(tick)]
+        holding = [spell for spell in self.spells if spell.holds(tick)]
+        faults = [spell.fault for spell in holding]
         dead = {uid for fault in faults if isinstance(fault, Kill) for uid in fault.agents}
         frozen = {uid for fault in faults if isinstance(fault, Freeze) for uid in fault.agents}
         return Ills(
@@ -114,7 +115,7 @@ class Schedule:
             frozen=frozenset(frozen - dead),
             links=_links(faults, mission.tick_s),
             identity_errors=_identity_errors(faults, mission),
-            breakage=_breakage(faults, mission),
+            breakage=_breakage(holding, mission),
         )
 
 
@@ -169,9 +170,10 @@ def _identity_errors(faults: Sequence[AnyFault], mission: Mission) -> dict[int, 
     return errors
 
 
-def _breakage(faults: Sequence[AnyFault], mission: Mission) -> dict[int, dict[str, float]]:
+def _breakage(holding: Sequence[Spell], mission: Mission) -> dict[int, dict[str, float]]:
+    """Of two faults that set one parameter, the one that began later holds, wherever the mission lists it."""
     breakage: dict[int, dict[str, float]] = {}
-    for fault in faults:
+    for fault in (spell.fault for spell in sorted(holding, key=lambda spell: spell.first)):
         if isinstance(fault, VEHICLE_FAULTS):
             for uid in _uids(fault, mission):
                 breakage.setdefault(uid, {}).update(broken(fault, mission))

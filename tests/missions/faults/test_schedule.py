@@ -110,3 +110,31 @@ def test_what_is_broken_in_whose_vehicle() -> None:
     assert not any(found.reboots(1, tick, since=tick - 1) for tick in range(100))
     assert [tick for tick in range(0, 100, 4) if found.reboots(0, tick, since=tick - 4)] == [52]  # it was skipped
     assert found.at(70).breakage == {0: {"SIM_BATT_CAP_AH": 5.0, "SIM_BATT_VOLTAGE": 12.6}}
+
+
+def wind(at_s: float, for_s: float | None, speed_m_s: float) -> dict[str, Any]:
+    return {"kind": "wind", "at_s": at_s, "for_s": for_s, "speed_m_s": speed_m_s}
+
+
+# The winds of a mission -> tick, speed of the wind there.
+@pytest.mark.parametrize("listed_first", [0, 1], ids=["listed in time", "listed the other way round"])
+@pytest.mark.parametrize(
+    ("winds", "blows"),
+    [
+        ([wind(1, 6, 2), wind(3, 2, 9)], {9: None, 10: 2, 29: 2, 30: 9, 49: 9, 50: 2, 69: 2, 70: None}),
+        ([wind(1, 3, 2), wind(3, 3, 9)], {29: 2, 30: 9, 39: 9, 40: 9, 59: 9, 60: None}),
+        ([wind(1, None, 2), wind(3, 1, 9)], {29: 2, 30: 9, 40: 2, 99: 2}),
+    ],
+    ids=["one within the other", "one after the other", "one without an end"],
+)
+def test_of_two_faults_of_a_kind_the_one_that_begins_later_holds_while_it_lasts(
+    winds: list[dict[str, Any]], blows: dict[int, float | None], listed_first: int
+) -> None:
+    found = schedule(*(reversed(winds) if listed_first else winds), agents={"count": 1})
+    speeds = {tick: found.at(tick).breakage.get(0, {}).get("SIM_WIND_SPD") for tick in blows}
+    assert speeds == blows
+
+
+def test_of_two_that_begin_at_once_the_one_that_is_listed_later_holds() -> None:
+    found = schedule(wind(1, 2, 9), wind(1, 4, 2), agents={"count": 1})
+    assert [found.at(tick).breakage[0]["SIM_WIND_SPD"] for tick in (15, 35)] == [2, 2]
