@@ -5,7 +5,7 @@ Range is thus a fact of the world, not a promise of the receiver: an agent canno
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 from comms import link
@@ -67,10 +67,9 @@ class Air:
         self.due = [0] * n_agents
         bus.subscribe(keys.every_tx, self._hear)
 
-    @property
-    def waiting(self) -> int:
-        """How many agents have spoken what was not carried yet."""
-        return self._spoken.senders
+    def missing(self, speakers: Collection[int]) -> list[int]:
+        """Which of these have spoken nothing since frames were carried last."""
+        return self._spoken.missing(speakers)
 
     def _hear(self, key: str, payload: bytes) -> None:
         src = sender(key)

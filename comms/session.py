@@ -368,10 +368,13 @@ _RETRY_SOON = _RETRY | {"period_max_ms": 100}
 _CALL_S = 0.25  # on a link that is quick; TCP, TLS and zenoh take some round trips
 _TRIPS_TO_OPEN = 10
 _RECEIVERS, _MOST_RECEIVERS = 2, 64
+_MOST_BYTES = 16_777_216  # what a thousand agents tell a recorder in one tick is a quarter of it
 _QUIET: dict[str, Any] = {
     "listen/endpoints": [],
     "connect/endpoints": [],
     "scouting/multicast/enabled": False,
     "scouting/gossip/enabled": False,
     "transport/shared_memory/enabled": False,
+    # A message is whole in memory before any bound of ours is asked.
+    "transport/link/rx/max_message_size": _MOST_BYTES,
 }

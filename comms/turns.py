@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Collection
 
 MAX_EACH = 8  # one a tick is what is to be said; who was held up says several at once
 
@@ -13,10 +14,9 @@ class Turns:
     def __init__(self, n_senders: int) -> None:
         self._queues: list[deque[bytes]] = [deque(maxlen=MAX_EACH) for _ in range(n_senders)]
 
-    @property
-    def senders(self) -> int:
-        """How many have something waiting."""
-        return sum(1 for queue in self._queues if queue)
+    def missing(self, senders: Collection[int]) -> list[int]:
+        """Of which of these nothing waits."""
+        return [src for src in senders if not self._queues[src]]
 
     def put(self, src: int | None, payload: bytes) -> bool:
         """Whether it waits now, and nothing had to go for it: of too many the oldest goes, a stranger's do not wait."""

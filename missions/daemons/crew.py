@@ -16,6 +16,7 @@ from msgspec import structs
 from comms.clock import Awake
 from comms.keys import Keys, sender
 from comms.mailbox import Mailbox
+from comms.radio import Roster
 from comms.session import Network
 from comms.status import Activity, Event, Level
 from missions.daemons.member import Member
@@ -28,6 +29,7 @@ AWAKE_S = 1.0  # between two looks of ours; what is more, we have stood still ou
 FRAME_LOOK_S = 1e-4
 BACK = "its process is back"
 DIED = "its process has died, or its link is cut"
+UNHEARD = "has sent a frame, as it says, and none has come: lost"
 LEFT_IN_AIR = "its process has left, and its vehicle is in the air"
 
 
@@ -55,6 +57,7 @@ class RemoteCrew:
     """Agents behind a bus, by uid. See `missions.sides.world.Crew`.
 
     Args:
+        roster: whom the mission has.
         fingerprint: of the mission; agents of another one are not let in. tell: what becomes of which agent.
         stop: once true, nobody is waited for who has not come yet.
 
@@ -67,7 +70,7 @@ class RemoteCrew:
         bus: Network,
         *,
         keys: Keys,
-        n_agents: int,
+        roster: Roster,
         medium: Medium,
         patience: Patience,
         fingerprint: str,
@@ -80,9 +83,10 @@ class RemoteCrew:
         self._fingerprint = fingerprint
         self._tell = tell
         self._stop = stop
-        self._members = [Member(uid) for uid in range(n_agents)]
-        self._mail = Mailbox(range(n_agents))
-        self._puts = [bus.publisher(keys.cue(uid)) for uid in range(n_agents)]
+        self._roster = roster
+        self._members = [Member(uid) for uid in range(roster.n_agents)]
+        self._mail = Mailbox(range(roster.n_agents))
+        self._puts = [bus.publisher(keys.cue(uid)) for uid in range(roster.n_agents)]
         self._awake = Awake(most_s=AWAKE_S)
         self._dead: set[int] = set()  # seen to die, from another thread
         self._refused: set[tuple[int, str]] = set()  # who, and why: told once
@@ -111,11 +115,7 @@ class RemoteCrew:
         return [member.last for member in self._members]
 
     def tick(self, cues: Sequence[Cue]) -> list[Done]:
-        """Let everybody who is there do its tick; who is not is LOST, where it was last.
-
-        Raises:
-            RuntimeError: in lockstep, a frame that was sent did not arrive.
-        """
+        """Let everybody who is there do its tick; who is not is LOST, where it was last."""
         self._collect()
         if self._patience.lockstep:
             self._await_anybody()
@@ -132,10 +132,9 @@ class RemoteCrew:
             silent_s = self._awake.now_s() - member.heard_at_s
             if self._patience.lockstep or silent_s > self._patience.lost_s:
                 self._lose(member, f"no answer for {silent_s:.0f} s: lost")
-        dones = [member.tell(tick, may_be_back=self._may_be_back(member)) for member in self._members]
         if self._patience.lockstep:
-            self._await_frames(sum(done.spoke for done in dones))
-        return dones
+            self._await_frames([member for member in self._members if member.has_spoken(tick)])
+        return [member.tell(tick, may_be_back=self._may_be_back(member)) for member in self._members]
 
     def dismiss(self) -> None:
         """The mission is over: everybody may go."""
@@ -153,7 +152,7 @@ class RemoteCrew:
         """Take in what has come, and who has died."""
         for uid, wires in self._mail.take().items():
             for wire in wires:
-                done = decode_done(wire, uid)
+                done = decode_done(wire, uid, self._roster)
                 if done is not None:
                     self._hear(self._members[uid], done)
         while self._dead:
@@ -213,11 +212,15 @@ class RemoteCrew:
             self._mail.wait(range(len(self._members)), timeout_s=LOOK_S)
             self._collect()
 
-    def _await_frames(self, n_frames: int) -> None:
-        deadline_s = monotonic() + self._patience.tick_s
-        while not self._medium.has(n_frames):
-            if monotonic() > deadline_s:
-                raise RuntimeError(f"lockstep broken: not all of {n_frames} frames arrived")
+    def _await_frames(self, spoken: Sequence[Member]) -> None:
+        """Until what these have sent is where it must be; whose frame does not come is lost with it."""
+        deadline_s = self._awake.now_s() + self._patience.tick_s
+        while missing := self._medium.missing([member.uid for member in spoken]):
+            if self._awake.now_s() > deadline_s:
+                for uid in missing:
+                    self._members[uid].unsay()
+                    self._lose(self._members[uid], UNHEARD)
+                return
             sleep(FRAME_LOOK_S)
 
     def _on_change(self, key: str, is_there: bool) -> None:

@@ -104,6 +104,14 @@ class Member:
             self._take(done, now_s)
             self.is_there = not done.leaves
 
+    def has_spoken(self, tick: int) -> bool:
+        """Whether it says that it has sent a frame in this tick."""
+        return self.done is not None and self.done.tick == tick and self.done.spoke
+
+    def unsay(self) -> None:
+        """It has not sent the frame of this tick, whatever it says."""
+        self.done = structs.replace(self.last, spoke=False)
+
     def lose(self, now_s: float) -> None:
         """It is not there any more, and nobody knows what it does."""
         self.is_there, self.lost_at_s = False, now_s

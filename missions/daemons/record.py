@@ -12,6 +12,7 @@ import msgspec
 from msgspec import structs
 
 from comms.keys import WORLD, Keys
+from comms.radio import Roster
 from comms.session import BusError, Network
 from missions.daemons.feed import KEPT_EVERY_TICKS, WINDOW_TICKS, Kept
 from missions.daemons.joining import new_life, open_world, tell_of_flight, unmet
@@ -82,6 +83,7 @@ class _Reel:
         self._log = log
         # What comes too fast in real time is dropped, as in the recorder's own queue.
         self._inbox: queue.Queue[bytes] = queue.Queue(4 * WINDOW_TICKS)
+        self._roster = Roster(mission.agents.count, n_targets(mission))
         self._last_tick: int | None = None
         self._missing = 0
         self._over = False
@@ -128,13 +130,16 @@ class _Reel:
                         return FAILED
                     self._tell(Kept(HELLO_TICK, recording=self._path, fingerprint=self._fingerprint))
                 continue
-            observation = decode_observation(wire)
+            observation = decode_observation(wire, self._roster)
             if observation is None:
+                self._log.error(f"an observation of {len(wire)} bytes cannot be read")
                 continue
             if self._last_tick is not None:
                 self._missing += max(0, observation.tick - self._last_tick - 1)
             self._last_tick = observation.tick
             self._recorder.observe(observation)
+            if self._recorder.has_failed:
+                return FAILED
             if observation.tick % KEPT_EVERY_TICKS == 0:
                 self._tell(Kept(observation.tick, recording=self._path))
         return STOPPED if self._ending.interrupted else DONE

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from math import isfinite
 from typing import TypeVar
 
 import msgspec
 
-from comms.messages import FARTHEST_M, FASTEST_M_S
+from comms.radio import Roster
+from missions.daemons.believable import is_believable, most_done_bytes, shortened
 from missions.observation import Observation
 from missions.sides.exchange import Cue, Done
 
-MAX_BYTES = 1_000_000
+MAX_CUE_BYTES = 1_000_000
 OVER = b""  # in place of a cue or an observation: the mission is over
 # Why the world does not let a process in.
 STRANGE = "has another mission, or another --speed, and is not let in: are its file and options the world's?"
@@ -32,27 +32,22 @@ def encode(value: Cue | Done | Observation) -> bytes:
 
 def decode_cue(wire: bytes) -> Cue | None:
     """The cue in `wire`, if it is one."""
-    return _decoded(_cues, wire)
+    return _decoded(_cues, wire, MAX_CUE_BYTES)
 
 
-def decode_done(wire: bytes, uid: int) -> Done | None:
-    """The done in `wire`, if it is one of agent `uid` and of a vehicle that is somewhere."""
-    done = _decoded(_dones, wire)
-    if done is None or done.status.uid != uid:
-        return None
-    truth = done.truth
-    near = all(abs(place) <= FARTHEST_M for place in truth.position_m)
-    slow = all(abs(speed) <= FASTEST_M_S for speed in truth.velocity_m_s)
-    return done if near and slow and isfinite(truth.heading_rad) else None  # NaN is neither
+def decode_done(wire: bytes, uid: int, roster: Roster) -> Done | None:
+    """The done in `wire`, if it is one of agent `uid`, and can be believed in such a mission."""
+    done = _decoded(_dones, wire, most_done_bytes(roster))
+    return shortened(done) if done is not None and is_believable(done, uid, roster) else None
 
 
-def decode_observation(wire: bytes) -> Observation | None:
-    """The observation in `wire`, if it is one."""
-    return _decoded(_observations, wire)
+def decode_observation(wire: bytes, roster: Roster) -> Observation | None:
+    """The observation in `wire`, if it is one of such a mission's: all that its agents say."""
+    return _decoded(_observations, wire, (roster.n_agents + 1) * most_done_bytes(roster))
 
 
-def _decoded(decoder: msgspec.msgpack.Decoder[T], wire: bytes) -> T | None:
-    if len(wire) > MAX_BYTES:
+def _decoded(decoder: msgspec.msgpack.Decoder[T], wire: bytes, max_bytes: int) -> T | None:
+    if len(wire) > max_bytes:
         return None
     try:
         return decoder.decode(wire)

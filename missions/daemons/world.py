@@ -10,6 +10,7 @@ from rich.console import Console
 
 from comms.access import Gate, Place
 from comms.keys import WORLD, Keys
+from comms.radio import Roster
 from comms.session import BusError, Network, open_router
 from missions.daemons.crew import CrewError, Patience, RemoteCrew
 from missions.daemons.desk import MissionDesk
@@ -28,6 +29,7 @@ from missions.problems import InputError
 from missions.progress import Progress, progress_on
 from missions.report import check_files, make_report, publish
 from missions.sides.world import WorldSide, fly
+from missions.targets import n_targets
 
 # A process that does not answer for so long does nothing any more, however busy the computer.
 LOST_S = 10.0
@@ -102,7 +104,7 @@ def _run(
     crew = RemoteCrew(
         bus,
         keys=keys,
-        n_agents=mission.agents.count,
+        roster=Roster(mission.agents.count, n_targets(mission)),
         medium=side.medium,
         patience=_patience(mission, daemon),
         fingerprint=ours,

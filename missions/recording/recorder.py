@@ -112,6 +112,11 @@ class Recorder:
         return self._intake.dropped
 
     @property
+    def has_failed(self) -> bool:
+        """Whether nothing is recorded any more; the end of it says why."""
+        return self._error is not None
+
+    @property
     def being_written(self) -> Path | None:
         """The file that grows; None if there is none."""
         return None if self._parts is None else self._parts.being_written

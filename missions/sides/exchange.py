@@ -9,6 +9,8 @@ an agent in, by its first `Done`, and heeds no other; a process heeds no cue but
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import msgspec
 
 from comms.messages import Sighting
@@ -16,6 +18,8 @@ from comms.status import AgentStatus
 from missions.observation import AgentTruth
 
 HELLO_TICK = -1
+# Sums over all agents, and over all their lives, stay within what travels as an integer.
+Count = Annotated[int, msgspec.Meta(ge=0, le=2**48)]
 
 
 class Cue(msgspec.Struct, frozen=True, kw_only=True, array_like=True):
@@ -51,10 +55,10 @@ class Cue(msgspec.Struct, frozen=True, kw_only=True, array_like=True):
 class LinkCount(msgspec.Struct, frozen=True, array_like=True):
     """MAVLink messages of one end of a link so far."""
 
-    sent: int = 0
-    received: int = 0
-    bad: int = 0
-    dropped: int = 0
+    sent: Count = 0
+    received: Count = 0
+    bad: Count = 0
+    dropped: Count = 0
 
     def __add__(self, other: LinkCount) -> LinkCount:
         return LinkCount(
@@ -65,10 +69,10 @@ class LinkCount(msgspec.Struct, frozen=True, array_like=True):
 class RadioTally(msgspec.Struct, frozen=True, array_like=True):
     """An agent's radio so far: frames and bytes sent, frames heard and believed, frames refused."""
 
-    sent: int = 0
-    bytes: int = 0
-    heard: int = 0
-    refused: int = 0
+    sent: Count = 0
+    bytes: Count = 0
+    heard: Count = 0
+    refused: Count = 0
 
     def __add__(self, other: RadioTally) -> RadioTally:
         return RadioTally(

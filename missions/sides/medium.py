@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import Protocol
 
 from comms.air import Air, AirCount
@@ -34,8 +34,8 @@ class Medium(Protocol):
     def carry(self, tick: int, before: Sequence[Done], dones: Sequence[Done], disturbance: Disturbance) -> None:
         """See to what was sent in this tick. By uid, `before` is how agents were when it began, `dones` what came."""
 
-    def has(self, n_frames: int) -> bool:
-        """Whether so many frames of this tick are where they must be before it can end."""
+    def missing(self, speakers: Collection[int]) -> list[int]:
+        """Which of these have sent frames that are not where they must be before the tick can end."""
 
 
 class SimulatedAir:
@@ -63,8 +63,8 @@ class SimulatedAir:
     def carry(self, tick: int, before: Sequence[Done], dones: Sequence[Done], disturbance: Disturbance) -> None:
         self._air.carry(tick, [done.truth.position_m[:2] for done in before], disturbance)
 
-    def has(self, n_frames: int) -> bool:
-        return self._air.waiting >= n_frames
+    def missing(self, speakers: Collection[int]) -> list[int]:
+        return self._air.missing(speakers)
 
 
 class OpenField:
@@ -100,5 +100,5 @@ class OpenField:
         }
         self.links = tuple(sorted(heard_each_other))
 
-    def has(self, n_frames: int) -> bool:
-        return True
+    def missing(self, speakers: Collection[int]) -> list[int]:
+        return []

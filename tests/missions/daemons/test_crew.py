@@ -9,14 +9,16 @@ from time import monotonic
 import pytest
 from msgspec import structs
 
+from comms.air import Air, LinkModel
 from comms.keys import Keys
+from comms.radio import Roster
 from comms.status import Activity, AgentStatus, Event, Level
 from missions.daemons import member
-from missions.daemons.crew import BACK, DIED, LEFT_IN_AIR, CrewError, Patience, RemoteCrew
+from missions.daemons.crew import BACK, DIED, LEFT_IN_AIR, UNHEARD, CrewError, Patience, RemoteCrew
 from missions.daemons.wire import STRANGE, TAKEN, decode_cue, encode
 from missions.observation import AgentTruth
 from missions.sides.exchange import HELLO_TICK, Cue, Done, LinkCount
-from missions.sides.medium import OpenField
+from missions.sides.medium import Medium, OpenField, SimulatedAir
 from tests.missions.daemons.fake_bus import FakeBus
 
 KEYS = Keys("toy")
@@ -28,7 +30,7 @@ IN_REAL_TIME = Patience(join_s=LONG_S, tick_s=0.02, lost_s=LONG_S, back_s=0.0, l
 
 
 class Process:
-    """A process of agent `uid` that does a tick for each cue, unless it is `busy`.
+    """A process of agent `uid` that does a tick for each cue, unless it is `busy`, and `speaks` in it, or says so.
 
     Attributes:
         cued: the ticks that it was told to do. refused: why it was not let in.
@@ -39,6 +41,7 @@ class Process:
         self.cued: list[int] = []
         self.refused = ""
         self.busy = False
+        self.speaks = False
         self._bus = bus
         self._life = life
         self._fingerprint = fingerprint
@@ -49,7 +52,7 @@ class Process:
         self._put(structs.replace(self.done(HELLO_TICK), fingerprint=self._fingerprint))
 
     def do(self, tick: int, *, said: str = "", leaves: bool = False) -> None:
-        self._put(self.done(tick, said=said, leaves=leaves))
+        self._put(structs.replace(self.done(tick, said=said, leaves=leaves), spoke=self.speaks))
 
     def done(self, tick: int, *, said: str = "", leaves: bool = False) -> Done:
         events = (Event(Level.INFO, said),) if said else ()
@@ -85,14 +88,14 @@ class Process:
 class Mission:
     """A crew of three processes that has met, and what is told of it."""
 
-    def __init__(self, patience: Patience = LOCKSTEP) -> None:
+    def __init__(self, patience: Patience = LOCKSTEP, medium: Medium | None = None) -> None:
         self.bus = FakeBus()
         self.told: list[tuple[int, str]] = []
         self.crew = RemoteCrew(
             self.bus,
             keys=KEYS,
-            n_agents=N_AGENTS,
-            medium=OpenField(N_AGENTS),
+            roster=Roster(N_AGENTS),
+            medium=medium or OpenField(N_AGENTS),
             patience=patience,
             fingerprint=PRINT,
             tell=lambda uid, event: self.told.append((uid, event.text)),
@@ -131,7 +134,7 @@ def test_nobody_waits_for_ever_for_those_who_do_not_come() -> None:
         RemoteCrew(
             FakeBus(),
             keys=KEYS,
-            n_agents=N_AGENTS,
+            roster=Roster(N_AGENTS),
             medium=OpenField(N_AGENTS),
             patience=replace(LOCKSTEP, join_s=0.0),
             fingerprint=PRINT,
@@ -284,3 +287,16 @@ def test_who_leaves_its_vehicle_to_a_person_is_lost() -> None:
     assert said(left) == ["it is left to them", LEFT_IN_AIR]
     assert left.status.activity is Activity.LOST
     assert agent.cued == [0]
+
+
+def test_who_says_that_it_spoke_and_has_not_is_lost_alone() -> None:
+    bus = FakeBus()
+    air = Air(bus, keys=KEYS, model=LinkModel(range_m=10.0), n_agents=N_AGENTS, tick_s=0.1, seed=1)
+    mission = Mission(medium=SimulatedAir(air))
+    mission.processes[2].speaks = True
+    dones = mission.tick()
+    assert [done.spoke for done in dones] == [False] * N_AGENTS
+    assert dones[2].status.activity is Activity.LOST
+    assert mission.told == [(2, UNHEARD)]
+    assert mission.crew.lost == {2}
+    assert [done.tick for done in mission.tick()] == [1, 1, 0]

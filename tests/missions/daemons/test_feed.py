@@ -10,6 +10,7 @@ import msgspec
 import pytest
 
 from comms.keys import Keys
+from comms.radio import ANYBODY
 from comms.status import Activity, AgentStatus
 from missions.daemons import feed
 from missions.daemons.crew import CrewError
@@ -72,7 +73,11 @@ class Mission:
 
     @property
     def passed_on(self) -> list[int]:
-        seen = [decode_observation(payload) for key, payload in self.bus.said if key == KEYS.truth and payload != OVER]
+        seen = [
+            decode_observation(payload, ANYBODY)
+            for key, payload in self.bus.said
+            if key == KEYS.truth and payload != OVER
+        ]
         return [shown.tick for shown in seen if shown is not None]
 
     def _begin(self) -> None:

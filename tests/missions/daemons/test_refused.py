@@ -9,6 +9,7 @@ import pytest
 
 from comms.clock import Lockstep
 from comms.keys import Keys
+from comms.radio import ANYBODY
 from missions.daemons import agent as daemon
 from missions.daemons.agent import HOME_FIRST, LEFT_TO_OTHER, agent
 from missions.daemons.options import DaemonOptions
@@ -35,7 +36,7 @@ class World:
         self.refused_at: int | None = None
         self._put = bus.publisher(keys.cue(UID))
         self._why = why
-        bus.subscribe(keys.done(UID), lambda key, payload: self._answer(decode_done(payload, UID)))
+        bus.subscribe(keys.done(UID), lambda key, payload: self._answer(decode_done(payload, UID, ANYBODY)))
 
     def _answer(self, done: Done | None) -> None:
         assert done is not None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from comms.radio import ANYBODY
 from comms.status import Activity, AgentStatus
 from missions.daemons import seat as seats
 from missions.daemons.orders import Verb
@@ -55,7 +56,7 @@ class Flight:
 
     @property
     def told(self) -> list[Done]:
-        dones = [decode_done(wire, UID) for wire in self.wires]
+        dones = [decode_done(wire, UID, ANYBODY) for wire in self.wires]
         return [done for done in dones if done is not None]
 
     def tick(self, n: int = 1) -> None:
