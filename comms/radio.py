@@ -67,7 +67,14 @@ class Radio:
 
     Args:
         roster: who can be heard, and heard of. ttl_s: nothing older is believed, whatever its speaker says.
+
+    Attributes:
+        is_open: whether more may arrive than the world knows of. surplus: so many were refused as they were counted,
+            because their senders had spoken already in the tick.
     """
+
+    is_open = False
+    surplus = 0
 
     def __init__(self, bus: Bus, *, keys: Keys, uid: int, roster: Roster = ANYBODY, ttl_s: float = inf) -> None:
         self.uid = uid

@@ -109,6 +109,47 @@ def test_who_shouts_pushes_out_nobody_else(bus: Bus, sent_at_s: float) -> None:
     assert heard(radio, 0.5) == (last if sent_at_s else [])
 
 
+# What agent 1 puts on its own key in a tick -> the numbers of its frames that are heard, and how much is refused.
+@pytest.mark.parametrize(
+    ("wires", "numbers", "refused"),
+    [
+        ([encode(frame(1, seq=5)), b"rubbish"], [5], 1),
+        ([b"rubbish", encode(frame(1, seq=5)), b"more"], [5], 2),
+        ([encode(frame(1, seq=5)), encode(frame(1, seq=6)), encode(frame(1, seq=4))], [6], 2),
+        ([encode(frame(1, seq=5)), encode(frame(2, seq=9))], [5], 1),
+        ([b"rubbish", b"more"], [], 2),
+    ],
+    ids=["rubbish behind", "rubbish around", "three frames", "a frame of somebody else", "rubbish alone"],
+)
+@pytest.mark.parametrize("at_once", [True, False], ids=["counted at the end", "counted after each"])
+def test_in_lockstep_each_counts_once_a_tick_whatever_it_says(
+    bus: Bus, wires: list[bytes], numbers: list[int], refused: int, at_once: bool
+) -> None:
+    radio, _, mate = radios_on(bus, 3)
+    mate.send(frame(2, seq=3))
+    put = bus.publisher(KEYS.tx(1))
+    for wire in wires:
+        put(wire)
+        assert at_once or radio.waiting(0.1) == 2
+    assert radio.waiting(0.1) == 2
+    assert radio.surplus == len(wires) - 1
+    assert heard(radio, 0.1) == [*[(1, number) for number in numbers], (2, 3)]
+    assert radio.count.refused == refused
+    assert radio.waiting(0.2) == radio.surplus == 0
+
+
+def test_a_computer_that_stands_still_keeps_one_of_each_a_tick(bus: Bus) -> None:
+    radio, mate, other = radios_on(bus, 3)
+    for tick in range(5):
+        mate.send(frame(1, seq=tick, sent_at_s=tick * 0.1))
+        other.send(frame(2, seq=tick, sent_at_s=tick * 0.1))
+        for _ in range(5):
+            bus.publisher(KEYS.tx(2))(b"rubbish")
+        assert radio.waiting((tick + 1) * 0.1) == 2 * (tick + 1)
+    assert heard(radio, 0.5) == [(src, seq) for src in (1, 2) for seq in range(5)]
+    assert radio.count.refused == 25
+
+
 def test_what_is_old_by_the_mission_is_not_believed_whatever_it_says_itself(bus: Bus) -> None:
     radio = FieldRadio(bus, keys=KEYS, uid=0, roster=ROSTER, ttl_s=0.5)
     put = bus.publisher(KEYS.tx(1))

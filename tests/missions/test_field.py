@@ -10,8 +10,13 @@ from typing import Any
 import pytest
 
 from comms.clock import Lockstep
-from comms.session import open_local_bus
+from comms.codec import encode
+from comms.keys import Keys
+from comms.messages import Frame
+from comms.session import Bus, open_local_bus
 from comms.sight import decode_sight
+from comms.status import Level
+from missions import compose
 from missions.faults.costs import Costs
 from missions.flight import Flight
 from missions.load import load_mission, parse_mission
@@ -21,6 +26,9 @@ from missions.observation import Observation
 from missions.overrides import Override
 from missions.problems import MissionError
 from missions.report import make_report
+from missions.sides.agent import AgentSide, agent_sides
+from missions.sides.computer import HEARS_MORE
+from missions.sides.exchange import Cue
 
 FAULTS = (
     "faults=[{kind: kill, at_s: 4, for_s: 5, agents: [1]}, {kind: freeze, at_s: 6, for_s: 4, agents: [2]}, "
@@ -73,6 +81,60 @@ def test_so_they_do_when_computers_fail_and_who_is_off_is_heard_by_nobody_and_he
     assert counted["delivered"] + counted["out_of_range"] + counted["refused"] == 3 * counted["sent"]
     assert 0 < counted["out_of_range"] < told["delivered"]
     assert links == ((1, 2), (1, 3), (2, 3))
+
+
+def side(mission: Mission, bus: Bus) -> AgentSide:
+    [side] = agent_sides(mission, compose.radios(mission, bus, [0], n_targets=5), n_targets=5)
+    return side
+
+
+def say(mission: Mission, bus: Bus, src: int, tick: int) -> None:
+    said = Frame(src, tick, tick * mission.tick_s, 0.5, (0.0, 0.0, 10.0), (0.0, 0.0, 0.0))
+    bus.publisher(Keys(mission.name).tx(src))(encode(said))
+
+
+def test_who_hears_more_than_the_world_has_counted_believes_it_and_says_so_once() -> None:
+    field, told = mission("radio.mode=field"), []
+    with open_local_bus() as bus:
+        agent = side(field, bus)
+        for tick in range(4):
+            done = agent.tick(Cue(tick=tick, frames=1 if tick else 0, life=7))
+            told += [(tick, event.level) for event in done.status.events if event.text == HEARS_MORE]
+            say(field, bus, 1, tick)
+            if tick:
+                say(field, bus, 2, tick)  # and dies before its done
+        assert (done.radio.heard, done.radio.refused) == (5, 0)
+    assert told == [(2, Level.WARNING)]
+
+
+def test_in_the_field_fewer_frames_than_were_sent_are_loud() -> None:
+    field = mission("radio.mode=field")
+    with open_local_bus() as bus:
+        agent = side(field, bus)
+        say(field, bus, 1, 0)
+        bus.publisher(Keys(field.name).tx(1))(b"rubbish")  # in nobody's stead
+        with pytest.raises(RuntimeError, match=r"lockstep broken at 0.1 s, agent 0: "):
+            agent.tick(Cue(tick=1, frames=2, life=7))
+
+
+@pytest.mark.parametrize("twice", [True, False], ids=["of one mate", "of another one"])
+def test_in_one_process_more_frames_than_were_sent_are_loud(twice: bool) -> None:
+    field = mission("radio.mode=field")
+    with open_local_bus() as bus:
+        agent = side(field, bus)
+        for src in (1, 1 if twice else 2):
+            say(field, bus, src, 0)
+        with pytest.raises(RuntimeError, match=r"lockstep broken at 0.1 s, agent 0: 2 frames arrived of 1"):
+            agent.tick(Cue(tick=1, frames=1))
+
+
+def test_under_an_air_more_frames_than_were_sent_are_loud() -> None:
+    simulated = mission("radio.mode=sim")
+    with open_local_bus() as bus:
+        agent = side(simulated, bus)
+        bus.publisher(Keys(simulated.name).rx(0))(b"rubbish")
+        with pytest.raises(RuntimeError, match=r"lockstep broken at 0.1 s, agent 0: 1 frames arrived of 0"):
+            agent.tick(Cue(tick=1, life=7))
 
 
 def test_the_guides_mission_can_be_flown() -> None:

@@ -20,8 +20,9 @@ from comms.messages import Frame
 from comms.radio import Roster
 from comms.session import BusError, Network, open_client, open_peer, open_router
 from missions.cli import main
+from missions.sides.computer import HEARS_MORE
 from tests.missions.daemons.swarm import SMALL, children, free_endpoint, kill, swarm
-from tests.patience import until
+from tests.patience import PATIENCE_S, until
 
 KEYS = Keys("tour")
 FIELD = ("--set", "radio.mode=field")
@@ -54,6 +55,20 @@ def test_many_processes_decide_what_one_does(tmp_path: Path, folder: Path, secur
     one = reported(tmp_path / "one.json", *flown)
     assert reported(tmp_path / "many.json", *flown, "--processes", "--listen", free_endpoint(), *keys) == one
     assert one["radio"]["delivered"] > 0
+
+
+def test_rubbish_on_a_mates_key_ends_no_flight_in_lockstep(tmp_path: Path) -> None:
+    endpoint, file = free_endpoint(), tmp_path / "report.json"
+    words = ("--processes", "--listen", endpoint, "--duration", "20", "--report", str(file), "--log-level", "info")
+    with swarm("launch", "quickstart", *SMALL, *FIELD, *words) as run:
+        with open_client(endpoint, lossless=True, patience_s=PATIENCE_S) as bus:
+            put = bus.publisher(Keys("quickstart").tx(1))
+            run.wait_for("setting its return altitude")
+            for _ in range(100):
+                put(b"rubbish")
+        assert run.wait() == 0, run.output
+    assert HEARS_MORE in run.output
+    assert json.loads(file.read_text())["radio"]["refused"] > 0
 
 
 def test_frames_go_from_radio_to_radio(tmp_path: Path, folder: Path) -> None:
