@@ -20,13 +20,14 @@ from comms.radio import Roster
 from comms.session import Network
 from comms.status import Activity, Event, Level
 from missions.daemons.member import Member
-from missions.daemons.wire import OVER, STRANGE, TAKEN, decode_done, encode
+from missions.daemons.wire import OVER, STRANGE, TAKEN, UNRELIABLE, decode_done, encode
 from missions.sides.exchange import HELLO_TICK, Cue, Done
 from missions.sides.medium import Medium
 
 LOOK_S = 0.2
 AWAKE_S = 1.0  # between two looks of ours; what is more, we have stood still ourselves
 FRAME_LOOK_S = 1e-4
+MOST_IN_VAIN = 3  # so often one agent may hold up all others for as long as it takes to lose it
 BACK = "its process is back"
 DIED = "its process has died, or its link is cut"
 UNHEARD = "has sent a frame, as it says, and none has come: lost"
@@ -131,7 +132,7 @@ class RemoteCrew:
         for member in waiting:
             silent_s = self._awake.now_s() - member.heard_at_s
             if self._patience.lockstep or silent_s > self._patience.lost_s:
-                self._lose(member, f"no answer for {silent_s:.0f} s: lost")
+                self._lose(member, f"no answer for {silent_s:.0f} s: lost", was_awaited=self._patience.lockstep)
         if self._patience.lockstep:
             self._await_frames([member for member in self._members if member.has_spoken(tick)])
         return [member.tell(tick, may_be_back=self._may_be_back(member)) for member in self._members]
@@ -175,6 +176,8 @@ class RemoteCrew:
         """A process says that it is there, and is let in, or told why not, or has to wait."""
         if hello.fingerprint != self._fingerprint:
             self._refuse(member.uid, hello.life, STRANGE)
+        elif member.awaited_in_vain >= MOST_IN_VAIN:
+            self._refuse(member.uid, hello.life, UNRELIABLE)
         elif member.is_rival_in_vain(hello.life):
             self._refuse(member.uid, hello.life, TAKEN)
         else:
@@ -188,7 +191,8 @@ class RemoteCrew:
             self._refused.add((uid, why))
             self._tell(uid, Event(Level.ERROR, why))
 
-    def _lose(self, member: Member, why: str) -> None:
+    def _lose(self, member: Member, why: str, *, was_awaited: bool = False) -> None:
+        member.awaited_in_vain += was_awaited
         self.lost.add(member.uid)
         self._say(member, Event(Level.ERROR, why))
         member.lose(self._awake.now_s())
@@ -219,7 +223,7 @@ class RemoteCrew:
             if self._awake.now_s() > deadline_s:
                 for uid in missing:
                     self._members[uid].unsay()
-                    self._lose(self._members[uid], UNHEARD)
+                    self._lose(self._members[uid], UNHEARD, was_awaited=True)
                 return
             sleep(FRAME_LOOK_S)
 

@@ -42,6 +42,7 @@ class Member:
         done: the last thing that was heard of it, without its events; None before its first hello.
         life: who speaks for it. is_there: and is to be cued. is_new: and has not been cued yet.
         news: events that nobody was told of. heard_at_s: when it last did something new. lost_at_s: when it was lost.
+        awaited_in_vain: how often everybody waited until it was lost.
     """
 
     def __init__(self, uid: int) -> None:
@@ -53,6 +54,7 @@ class Member:
         self.news: deque[Event] = deque(maxlen=MOST_NEWS)
         self.heard_at_s = 0.0
         self.lost_at_s: float | None = None
+        self.awaited_in_vain = 0
         self._spoke_at_s = 0.0
         self._newest = HELLO_TICK  # tick that it has told of
         self._own: _Counts | None = None

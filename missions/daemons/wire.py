@@ -16,6 +16,7 @@ OVER = b""  # in place of a cue or an observation: the mission is over
 # Why the world does not let a process in.
 STRANGE = "has another mission, or another --speed, and is not let in: are its file and options the world's?"
 TAKEN = "is there already, in another process, which goes on: a second one is not let in"
+UNRELIABLE = "has left too many ticks unanswered, each of which everybody had to wait for: it is not let in again"
 
 T = TypeVar("T")
 

@@ -14,8 +14,8 @@ from comms.keys import Keys
 from comms.radio import Roster
 from comms.status import Activity, AgentStatus, Event, Level
 from missions.daemons import member
-from missions.daemons.crew import BACK, DIED, LEFT_IN_AIR, UNHEARD, CrewError, Patience, RemoteCrew
-from missions.daemons.wire import STRANGE, TAKEN, decode_cue, encode
+from missions.daemons.crew import BACK, DIED, LEFT_IN_AIR, MOST_IN_VAIN, UNHEARD, CrewError, Patience, RemoteCrew
+from missions.daemons.wire import STRANGE, TAKEN, UNRELIABLE, decode_cue, encode
 from missions.observation import AgentTruth
 from missions.sides.exchange import HELLO_TICK, Cue, Done, LinkCount
 from missions.sides.medium import Medium, OpenField, SimulatedAir
@@ -300,3 +300,17 @@ def test_who_says_that_it_spoke_and_has_not_is_lost_alone() -> None:
     assert mission.told == [(2, UNHEARD)]
     assert mission.crew.lost == {2}
     assert [done.tick for done in mission.tick()] == [1, 1, 0]
+
+
+def test_who_holds_up_everybody_again_and_again_is_not_let_in_any_more() -> None:
+    mission = Mission()
+    mute = mission.processes[1]
+    mute.busy = True
+    for _ in range(MOST_IN_VAIN):
+        assert not mute.refused
+        mission.tick()
+        mute.hello()
+        mission.tick(0)
+    mission.tick()
+    assert mute.refused == UNRELIABLE
+    assert [done.tick for done in mission.tick()] == [4, -1, 4]
