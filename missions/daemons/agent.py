@@ -27,7 +27,7 @@ from missions.daemons.airwaves import open_airwaves
 from missions.daemons.joining import new_life, open_world, tell_of_flight, unmet
 from missions.daemons.log import Log
 from missions.daemons.options import DaemonOptions, await_world_s, fingerprint
-from missions.daemons.orders import Verb
+from missions.daemons.orders import Orders, Verb
 from missions.daemons.questions import Questions
 from missions.daemons.seat import Seat
 from missions.daemons.security import silence
@@ -110,7 +110,8 @@ class _Daemon:
         self._is_world_there = False
         self._is_closing = False
         self._hide: dict[int, Callable[[], None]] = {}  # takes back that an agent is there
-        self._seats = {uid: self._seat(uid, started_tick=0) for uid in self._radios}
+        self._puts = {uid: bus.publisher(self._keys.done(uid)) for uid in self._radios}
+        self._seats = {uid: self._seat(uid, started_tick=0, orders=Orders()) for uid in self._radios}
 
     def run(self) -> int:
         """Tick until everybody here is over; the exit code."""
@@ -159,7 +160,7 @@ class _Daemon:
         due_s = min(seat.contact.due_s(seat.last.tick + 1) for seat in self._flying())
         return min(HELLO_EVERY_S, max(0.0, due_s - monotonic()))
 
-    def _seat(self, uid: int, *, started_tick: int) -> Seat:
+    def _seat(self, uid: int, *, started_tick: int, orders: Orders) -> Seat:
         [side] = agent_sides(
             self._mission,
             [self._radios[uid]],
@@ -170,8 +171,7 @@ class _Daemon:
         if uid in self._logs:
             side.tap = self._logs[uid].pass_on
         period_s = None if self._options.lockstep else self._mission.tick_s / self._options.speed
-        put = self._bus.publisher(self._keys.done(uid))
-        return Seat(side, put, self._mission, life=self._life, period_s=period_s)
+        return Seat(side, self._puts[uid], self._mission, life=self._life, period_s=period_s, orders=orders)
 
     def _greet(self) -> None:
         now_s = monotonic()
@@ -217,8 +217,8 @@ class _Daemon:
     def _heed(self, seat: Seat, cue: Cue) -> None:
         """Do the tick of a cue."""
         if not seat.met and cue.tick > 0:
-            # It comes back to a mission that is under way: its vehicle is switched on now.
-            seat = self._seats[seat.uid] = self._seat(seat.uid, started_tick=cue.tick)
+            # It comes back to a mission that is under way: its vehicle is switched on now, and obeys what it was told.
+            seat = self._seats[seat.uid] = self._seat(seat.uid, started_tick=cue.tick, orders=seat.orders)
         self._await_frames(seat.side.computer, cue)
         self._obey(seat)
         self._say(seat, seat.take(cue))

@@ -12,6 +12,7 @@ from comms.session import Put
 from comms.status import Activity, Event, Level
 from missions.daemons.attended import Attended
 from missions.daemons.contact import Contact
+from missions.daemons.orders import Orders
 from missions.daemons.wire import encode
 from missions.exit_codes import DONE, FAILED
 from missions.mission import Mission
@@ -29,14 +30,24 @@ class Seat(Attended):
 
     Args:
         put: where its dones go. life: of this process. period_s: wall seconds a tick; None: in lockstep.
+        orders: what it was told before it was switched on, if it was.
 
     Attributes:
         contact: to the world. met: the world has cued it. away: and does not any more. over: it has ended; code: with
             this exit code.
     """
 
-    def __init__(self, side: AgentSide, put: Put, mission: Mission, *, life: int, period_s: float | None) -> None:
-        super().__init__(side, tick_s=mission.tick_s)
+    def __init__(
+        self,
+        side: AgentSide,
+        put: Put,
+        mission: Mission,
+        *,
+        life: int,
+        period_s: float | None,
+        orders: Orders | None = None,
+    ) -> None:
+        super().__init__(side, tick_s=mission.tick_s, orders=orders)
         self.contact = Contact(period_s=period_s, has_own_radio=bool(mission.radio.endpoints))
         self.met = False
         self.away = False

@@ -26,6 +26,7 @@ from missions.daemons.desk import open_board
 from missions.daemons.fleet import ANSWER_S, ATTEMPTS, FleetOptions, ask, status_table
 from missions.daemons.options import ENDPOINT
 from missions.daemons.orders import Answer, Orders, Report, Verb, decode_answer, encode_answer
+from missions.daemons.wire import decode_done, encode
 from missions.observation import AgentTruth
 from missions.options import Board
 from missions.problems import InputError
@@ -122,6 +123,26 @@ def test_a_swarm_is_held_resumed_landed_and_stopped(how: tuple[str, ...], tmp_pa
     report = json.loads(file.read_text())
     assert report["duration_s"] < FOR_EVER_S
     assert any("stopped after" in fault["what"] for fault in report["faults"])
+
+
+def test_what_an_agent_was_told_before_a_mission_under_way_takes_it_in_stands() -> None:
+    keys, endpoint = Keys("quickstart"), free_endpoint()
+    heard: SimpleQueue[Done] = SimpleQueue()
+
+    def hear(key: str, wire: bytes) -> None:
+        if (done := decode_done(wire, 1)) is not None:
+            heard.put(done)
+
+    with open_router(endpoint, lossless=True) as world:
+        world.subscribe(keys.done(1), hear)
+        with swarm("agent", "quickstart", "--id", "1", "--connect", endpoint):
+            hello = heard.get(timeout=PATIENCE_S)
+            code, text = tell(Verb.HOLD, "quickstart", "--id", "1", "--connect", endpoint)
+            assert (code, text.count("holds")) == (0, 1), text
+            world.publisher(keys.cue(1))(encode(Cue(tick=500, life=hello.life)))
+            while (done := heard.get(timeout=PATIENCE_S)).tick != 500:
+                assert done.tick == hello.tick
+    assert Event(Level.INFO, "told to hold: holds") in done.status.events
 
 
 def activities(bus: Network, *uids: int) -> list[Activity | None]:
