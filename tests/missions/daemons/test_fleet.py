@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 from argparse import Namespace
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
 from io import StringIO
 from math import inf
@@ -22,11 +23,12 @@ from comms.status import Activity, AgentStatus, Event, Level
 from missions.cli import main
 from missions.colors import ACTIVITY_INKS, hex_color
 from missions.daemons import verbs
-from missions.daemons.desk import open_board
+from missions.daemons.desk import MissionDesk, open_board
 from missions.daemons.fleet import ANSWER_S, ATTEMPTS, FleetOptions, ask, status_table
 from missions.daemons.options import ENDPOINT
 from missions.daemons.orders import Answer, Orders, Report, Verb, decode_answer, encode_answer
 from missions.daemons.wire import decode_done, encode
+from missions.ending import Ending
 from missions.observation import AgentTruth
 from missions.options import Board
 from missions.problems import InputError
@@ -143,6 +145,28 @@ def test_what_an_agent_was_told_before_a_mission_under_way_takes_it_in_stands() 
             while (done := heard.get(timeout=PATIENCE_S)).tick != 500:
                 assert done.tick == hello.tick
     assert Event(Level.INFO, "told to hold: holds") in done.status.events
+
+
+@pytest.mark.parametrize("at", ["*", "**"])
+def test_a_mission_is_stopped_by_name_alone(at: str) -> None:
+    keys, endpoint, ending = Keys("quickstart"), free_endpoint(), Ending(lambda text: None)
+    with (
+        open_router(endpoint, lossless=False) as world,
+        open_client(endpoint, lossless=False, patience_s=PATIENCE_S) as person,
+        ThreadPoolExecutor(1) as pool,
+    ):
+        desk = MissionDesk(world, keys, ending)
+
+        def answer_to(verb: str) -> Answer | None:
+            asked = pool.submit(person.ask, keys.command(WORLD, verb), timeout_s=PATIENCE_S)
+            until(lambda: (desk.is_closing(), asked.done())[1])
+            [(_, wire)] = asked.result()
+            return decode_answer(wire)
+
+        assert answer_to(at) == Answer(obeyed=False, text=f"knows no {at}")
+        assert not ending.asked
+        assert answer_to(Verb.STOP) == Answer(obeyed=True, text="everybody comes home")
+        assert ending.asked
 
 
 def activities(bus: Network, *uids: int) -> list[Activity | None]:
