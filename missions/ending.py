@@ -26,7 +26,7 @@ class Ending:
         tell: says to whoever watches that it was heard.
 
     Attributes:
-        asked: yes. interrupted: by Ctrl-C, alone or before another signal.
+        asked: yes. interrupted: by Ctrl-C, whatever other signal came before or after it.
     """
 
     def __init__(self, tell: Callable[[str], None]) -> None:
@@ -65,10 +65,10 @@ class Ending:
         return lambda: self._times > before
 
     def _hear(self, number: int, frame: FrameType | None) -> None:
+        self.interrupted = self.interrupted or number == signal.SIGINT
         if self._signaled and number != signal.SIGHUP:  # a terminal that goes says so twice, and is nobody's haste
             raise KeyboardInterrupt
         self._signaled = True
-        self.interrupted = self.interrupted or number == signal.SIGINT
         self.ask()
 
 

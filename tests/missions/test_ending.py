@@ -33,6 +33,16 @@ def test_signals_count_anew_for_what_begins_when_a_flight_is_over() -> None:
             signal.raise_signal(signal.SIGTERM)
 
 
+def test_a_second_signal_that_is_ctrl_c_is_the_reason() -> None:
+    ending = Ending(lambda text: None)
+    with ending.listening():
+        signal.raise_signal(signal.SIGTERM)
+        assert not ending.interrupted
+        with pytest.raises(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+    assert ending.interrupted
+
+
 @pytest.mark.parametrize("later", [signal.SIGHUP, signal.SIGTERM])
 def test_ctrl_c_stays_the_reason_whatever_comes_after_it(later: signal.Signals) -> None:
     ending = Ending(lambda text: None)
