@@ -31,11 +31,12 @@ from missions.metrics import Metrics
 from missions.mission import Mission
 from missions.observation import Observer
 from missions.options import LaunchOptions
+from missions.outcome import reported
 from missions.outlet import outlet_console
 from missions.plan import coverage_floor
 from missions.problems import InputError, OutputError
 from missions.progress import progress_on
-from missions.report import PACKAGES, check_files, make_report, publish, versions
+from missions.report import PACKAGES, check_files, versions
 from missions.tlog import Tlog, failures, tlogs
 from vehicle_sim.autopilot import SimulatedVehicle
 
@@ -65,20 +66,13 @@ def launch(mission: Mission, *, options: LaunchOptions) -> int:
         ending.listening(),
     ):
         flight = Flight(mission, bus, transports)
-        began_s = time.monotonic()
         try:
-            kept = _fly(flight, board, metrics, ending, console, options)
-        except InputError:
-            raise  # it has not begun
-        except BaseException as error:
-            why = "at once, in the air or not" if isinstance(error, KeyboardInterrupt) else repr(error)
-            metrics.fault(flight.clock_s, None, f"the flight was broken off: {why}")
-            raise
-        finally:
-            if flight.side.tick > 0:
-                wall_s, recording = time.monotonic() - began_s, _kept_in(options.record)
-                report = make_report(flight.side, metrics, wall_s=wall_s, recording=recording)
-                publish(report, to=options.report, console=console)
+            with reported(
+                flight.side, metrics, to=options.report, console=console, recording=lambda: _kept_in(options.record)
+            ):
+                kept = _fly(flight, board, metrics, ending, console, options)
+        except KeyboardInterrupt:
+            return STOPPED if ending.interrupted else FAILED
     if ending.asked:
         return STOPPED if ending.interrupted else DONE
     return DONE if flight.complete and kept else FAILED

@@ -31,6 +31,7 @@ LOOK_EVERY_S = 0.1
 # From the end of the world until its agents have landed by themselves: they notice, wait for it a while, and fly home.
 LANDING_S = RETURN_LIMIT_S + 60.0
 SAY_EVERY_S = 30.0
+ENDINGS = frozenset((signal.SIGTERM, signal.SIGINT))
 GOING_S = 3.0  # from a request to end until that is forced
 OCCUPIED = "; another mission may listen there, as every launch with --speed does: --listen names another port"
 
@@ -41,6 +42,7 @@ class _Child:
     def __init__(self, plan: ProcessPlan) -> None:
         self.plan = plan
         self.restarts_left = plan.restarts
+        self._told: set[int] = set()
         self._process = self._started()
 
     @property
@@ -56,8 +58,19 @@ class _Child:
 
     def signal(self, number: int) -> None:
         """Send it a signal, if it still runs."""
+        self._told.add(number)
         with suppress(ProcessLookupError):
             self._process.send_signal(number)
+
+    def hurry(self) -> None:
+        """End it at once; a vital one has a report to write first. Two signals of a kind would be one."""
+        for number in ENDINGS - self._told if self.plan.vital else (signal.SIGKILL,):
+            self.signal(number)
+
+    def ask(self) -> None:
+        """End, please, unless it has been told."""
+        if signal.SIGTERM not in self._told:
+            self.signal(signal.SIGTERM)
 
     def end(self, deadline_s: float) -> None:
         """See that it ends, who was asked to: by force, if it still runs at that time."""
@@ -98,8 +111,8 @@ def run_processes(
             return _watch(children, ending, console)
         except KeyboardInterrupt:
             for child in children:
-                child.signal(signal.SIGKILL)
-            return STOPPED
+                child.hurry()
+            return STOPPED if ending.interrupted else FAILED
         finally:
             _end(children)
 
@@ -127,7 +140,7 @@ def _watch(children: Sequence[_Child], ending: Ending, console: Console) -> int:
 def _end(children: Sequence[_Child]) -> None:
     """See that all end. They have one time to go, however many they are."""
     for child in children:
-        child.signal(signal.SIGTERM)
+        child.ask()
     deadline_s = monotonic() + GOING_S
     for child in children:
         child.end(deadline_s)

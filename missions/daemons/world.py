@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import time
+from contextlib import ExitStack
 from dataclasses import dataclass
 from functools import partial
 
@@ -24,10 +24,11 @@ from missions.launch import explain_every_s, pace_of
 from missions.metrics import Metrics
 from missions.mission import Mission
 from missions.observation import Observation, Observer
+from missions.outcome import reported
 from missions.outlet import outlet_console
 from missions.problems import InputError
 from missions.progress import Progress, progress_on
-from missions.report import check_files, make_report, publish
+from missions.report import check_files
 from missions.sides.world import WorldSide, fly
 from missions.targets import n_targets
 
@@ -72,6 +73,9 @@ def world(mission: Mission, daemon: DaemonOptions, options: WorldOptions) -> int
         except BusError as error:
             raise InputError(f"--listen: {error}") from error
         except CrewError as error:
+            if ending.asked:
+                log.info(str(error))
+                return STOPPED if ending.interrupted else DONE
             log.error(str(error))
         except KeyboardInterrupt:
             log.error("ended at once, and the swarm flies home without a world")
@@ -125,23 +129,27 @@ def _run(
     known = "" if daemon.credentials is None else f" whose certificates lie in {daemon.credentials.folder}"
     log.info(f"listens on {daemon.endpoint}, and waits for {mission.agents.count} agents{known}")
     observers: list[Observer] = [metrics, feed, _Teller(log)]
-    try:
+
+    def part() -> None:
+        disband()
+        crew.dismiss()
+        is_asked_again = ending.begin_anew()
+        feed.close(stop=lambda: desk.is_closing() and is_asked_again())
+
+    with ExitStack() as stack:
+        stack.callback(part)
         if options.recorded:
             feed.await_recorder(daemon.join_s, stop=desk.is_closing)
         side.meet(crew.hello())
-        began_s = time.monotonic()
-        with _progress(mission, console, metrics) as progress:
-            observers.append(progress)
-            fly(side, crew, pace=pace_of(mission, daemon.speed), observers=observers, stop=desk.is_closing)
-    finally:
-        disband()
-        crew.dismiss()
-        was_asked, is_asked_again = ending.asked, ending.begin_anew()
-        feed.close(stop=lambda: desk.is_closing() and is_asked_again())
-    for failure in feed.failures:
-        metrics.fault(side.clock_s, None, failure)
-    report = make_report(side, metrics, wall_s=time.monotonic() - began_s, recording=feed.recording)
-    publish(report, to=options.report, console=console)
+        with reported(side, metrics, to=options.report, console=console, recording=lambda: feed.recording):
+            with _progress(mission, console, metrics) as progress:
+                observers.append(progress)
+                fly(side, crew, pace=pace_of(mission, daemon.speed), observers=observers, stop=desk.is_closing)
+            was_asked = ending.asked
+            # The report waits for the recording, of which it tells; that of a flight that is broken off does not.
+            stack.close()
+            for failure in feed.failures:
+                metrics.fault(side.clock_s, None, failure)
     if ending.interrupted:
         return STOPPED
     if was_asked:

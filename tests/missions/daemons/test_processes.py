@@ -33,6 +33,8 @@ from tests.missions.daemons.swarm import (
 PATIENT_S = 150.0  # of mission, at ten times real time: a process has long started by then, on a busy computer too
 LONG = ("--speed", "10", "--duration", str(FOR_EVER_S), "--log-level", "info")
 
+BROKEN_OFF = "the flight was broken off: at once, in the air or not"
+
 
 def report_of(file: Path) -> dict[str, Any]:
     report: dict[str, Any] = json.loads(file.read_text())
@@ -310,6 +312,34 @@ def test_a_world_that_waits_for_its_recording_can_be_stopped(tmp_path: Path) -> 
         world.process.terminate()
         assert world.wait() == 1, world.output
     assert [fault["what"] for fault in report_of(file)["faults"]] == [UNAWAITED]
+
+
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGTERM, 0), (signal.SIGINT, 130)])
+def test_a_world_that_nobody_has_come_to_may_be_asked_to_end(number: signal.Signals, code: int) -> None:
+    endpoint = free_endpoint()
+    with swarm("world", "narrow", "--listen", endpoint, "--log-level", "info") as world:
+        world.wait_for(f"listens on {endpoint}")
+        world.process.send_signal(number)
+        assert world.wait() == code, world.output
+    assert "asked to end before everybody was there" in world.output
+    assert "level=error" not in world.output
+
+
+@pytest.mark.parametrize("second", [signal.SIGTERM, signal.SIGINT])
+@pytest.mark.parametrize("processes", [(), ("--processes",)], ids=["one process", "processes"])
+def test_a_flight_that_is_ended_at_once_leaves_a_report_and_has_failed(
+    tmp_path: Path, processes: tuple[str, ...], second: signal.Signals
+) -> None:
+    file = tmp_path / "report.json"
+    mission = ("quickstart", *SMALL, "--speed", "10", "--duration", str(FOR_EVER_S))
+    launch = ("launch", *mission, "--report", str(file), *processes, "--listen", free_endpoint())
+    with swarm(*launch, within=("sh", "-c", 'exec "$@" >&2', "sh")) as run:
+        run.wait_for("mission: 0:")
+        run.process.send_signal(signal.SIGTERM)
+        run.wait_for("Stopping")
+        run.process.send_signal(second)
+        assert run.wait() == (130 if second is signal.SIGINT else 1), run.output
+    assert BROKEN_OFF in [fault["what"] for fault in report_of(file)["faults"]]
 
 
 def test_two_worlds_do_not_share_a_port() -> None:
