@@ -2,11 +2,28 @@
 
 from __future__ import annotations
 
+import re
 import socket
-from ipaddress import ip_address
+from ipaddress import IPv6Address, ip_address
 from time import monotonic
 
 LOCAL_NAMES = ("localhost",)
+MOST_PORT = 65_535
+# What zenoh takes behind an address (`?...`, `#...`) is left out: it could undo what `--keys` asks for.
+_PLACE = re.compile(r"(?:tcp|tls)/(?:\[(?P<bracketed>[^\[\]]+)\]|(?P<host>[^\[\]:/?#;\s]+)):(?P<port>[0-9]{1,5})")
+
+
+def place_of(endpoint: str) -> tuple[str, int] | None:
+    """Its host, without brackets, and port; None if it is not `tcp/ADDRESS:PORT`, or the same of `tls/`."""
+    found = _PLACE.fullmatch(endpoint)
+    if found is None or not 0 < int(found["port"]) <= MOST_PORT:
+        return None
+    if found["bracketed"] is not None:
+        try:
+            IPv6Address(found["bracketed"])
+        except ValueError:
+            return None
+    return found["bracketed"] or found["host"], int(found["port"])
 
 
 def is_local(endpoint: str) -> bool:

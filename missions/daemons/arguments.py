@@ -5,9 +5,10 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from comms.endpoint import place_of
 from missions.arguments import count, new_file, report, seconds, speed, unix_time, whole
 from missions.daemons.log import LEVELS
-from missions.daemons.options import ENDPOINT, JOIN_S
+from missions.daemons.options import ENDPOINT, ENDPOINTS, JOIN_S
 
 Parser = argparse.ArgumentParser
 
@@ -80,7 +81,7 @@ def agent_options(parser: Parser) -> Parser:
     add_speed(parser)
     parser.add_argument("--id", required=True, metavar="N", help="its number from 0, or several: 0-4")
     about = f"without a world: listen there for people and detectors ({ENDPOINT}), in UTC, from swarm resume on"
-    parser.add_argument("--alone", nargs="?", const=ENDPOINT, metavar="ENDPOINT", help=about)
+    parser.add_argument("--alone", nargs="?", type=_endpoint, const=ENDPOINT, metavar="ENDPOINT", help=about)
     parser.add_argument("--tlog", type=Path, metavar="DIR", help="add to a log of each link there, for MAVProxy")
     about = "the mission clock's 0 there, in seconds since 1970"
     parser.add_argument("--tlog-began", type=unix_time, metavar="S", help=about)
@@ -108,7 +109,7 @@ def add_processes(parser: Parser) -> None:
     about = "many processes; N agents in one (1)"
     parser.add_argument("--processes", nargs="?", type=count, const=1, metavar="N", help=about)
     about = f"where they meet, and people reach the mission ({ENDPOINT}; one process without --speed: nowhere)"
-    parser.add_argument("--listen", metavar="ENDPOINT", help=about)
+    parser.add_argument("--listen", type=_endpoint, metavar="ENDPOINT", help=about)
     parser.add_argument("--restarts", type=whole, default=3, metavar="N", help="of an agent's process that fails (3)")
     _add_keys(parser)
     _add_insecure(parser)
@@ -116,13 +117,20 @@ def add_processes(parser: Parser) -> None:
 
 
 def _add_daemon(parser: Parser, where: str, about: str) -> Parser:
-    parser.add_argument(where, dest="endpoint", default=ENDPOINT, metavar="ENDPOINT", help=f"{about} ({ENDPOINT})")
+    about = f"{about} ({ENDPOINT})"
+    parser.add_argument(where, dest="endpoint", type=_endpoint, default=ENDPOINT, metavar="ENDPOINT", help=about)
     about = f"wait so long for the others ({JOIN_S:g})"
     parser.add_argument("--join-timeout", type=seconds, default=JOIN_S, metavar="S", help=about)
     _add_keys(parser)
     _add_log_level(parser, default="info")
     parser.add_argument("--leash", action="store_true", help="end, as by SIGTERM, when standard input does")
     return parser
+
+
+def _endpoint(text: str) -> str:
+    if place_of(text) is None:
+        raise argparse.ArgumentTypeError(f"got {text}; allowed: {ENDPOINTS}")
+    return text
 
 
 def _folder(text: str) -> Path:
@@ -152,7 +160,7 @@ def add_fleet(parser: Parser) -> None:
     parser.add_argument("mission", nargs="?", metavar="MISSION", help="the mission's file or name; all there, if none")
     parser.add_argument("--id", metavar="N", help="this agent, or these: 0-4; everybody, if none")
     about = f"where the world listens ({ENDPOINT})"
-    parser.add_argument("--connect", default=ENDPOINT, metavar="ENDPOINT", help=about)
+    parser.add_argument("--connect", type=_endpoint, default=ENDPOINT, metavar="ENDPOINT", help=about)
     _add_keys(parser)
 
 

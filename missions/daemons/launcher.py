@@ -7,7 +7,6 @@ they notice, land and go (`--leash`). The recorder goes with the world.
 from __future__ import annotations
 
 import errno
-import re
 import signal
 import socket
 import subprocess
@@ -17,16 +16,15 @@ from time import monotonic, sleep
 
 from rich.console import Console
 
+from comms.endpoint import place_of
 from comms.keys import RECORDER
-from missions.daemons.options import ENDPOINT
+from missions.daemons.options import ENDPOINTS
 from missions.daemons.processes import ProcessPlan
 from missions.ending import Ending
 from missions.exit_codes import BAD_INPUT, FAILED, STOPPED
 from missions.problems import InputError
 from missions.sides.phases import RETURN_LIMIT_S
 
-_ENDPOINT = re.compile(r"(?:tcp|tls)/(?:\[(?P<bracketed>[^\[\]]+)\]|(?P<host>[^\[\]:/]+)):(?P<port>[0-9]{1,5})")
-MOST_PORT = 65_535
 LOOK_EVERY_S = 0.1
 # From the end of the world until its agents have landed by themselves: they notice, wait for it a while, and fly home.
 LANDING_S = RETURN_LIMIT_S + 60.0
@@ -165,12 +163,11 @@ def _exit_code(code: int) -> int:
 
 def _check_free(endpoint: str) -> None:
     """Agents must not find another mission's world where ours cannot listen."""
-    found = _ENDPOINT.fullmatch(endpoint)
-    if found is None or int(found["port"]) > MOST_PORT:
-        raise InputError(f"--listen: got {endpoint}; allowed: tcp/ADDRESS:PORT, such as {ENDPOINT} or tcp/[::1]:7447")
-    host = found["bracketed"] or found["host"]
+    found = place_of(endpoint)
+    if found is None:
+        raise InputError(f"--listen: got {endpoint}; allowed: {ENDPOINTS}")
     try:
-        [(family, _, _, _, place), *_] = socket.getaddrinfo(host, int(found["port"]), type=socket.SOCK_STREAM)
+        [(family, _, _, _, place), *_] = socket.getaddrinfo(*found, type=socket.SOCK_STREAM)
         with socket.create_server(place, family=family):
             pass
     except (OSError, OverflowError, UnicodeError) as error:

@@ -15,6 +15,7 @@ from missions.mission import Mission
 
 # zenoh's own port, on this machine alone.
 ENDPOINT = "tcp/127.0.0.1:7447"
+ENDPOINTS = f"tcp/ADDRESS:PORT, such as {ENDPOINT}"
 JOIN_S = 60.0
 # A world on this computer that is gone for so long has ended, and it is not we who were too busy to keep in touch.
 ENDED_S = 1.0

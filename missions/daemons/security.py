@@ -13,21 +13,19 @@ from missions.problems import InputError
 if TYPE_CHECKING:
     from comms.session import BusError
 
-_PLAIN, _SECURED = "tcp/", "tls/"
+_SECURED = "tls/"
 
 
 def endpoint_of(text: str, *, keys: Path | None) -> str:
     """The endpoint as it is spoken to: with keys, TLS in place of bare TCP.
 
     Raises:
-        InputError: TLS without keys, or keys where there is no TLS.
+        InputError: TLS without keys.
     """
     if keys is None:
         if text.startswith(_SECURED):
             raise InputError(f"{text}: got no keys; allowed: --keys DIR, with what `swarm keys DIR` makes")
         return text
-    if not text.startswith((_PLAIN, _SECURED)):
-        raise InputError(f"{text}: cannot be secured by --keys; allowed: tcp/ADDRESS:PORT")
     return _SECURED + text.partition("/")[2]
 
 

@@ -6,13 +6,12 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field
 
+from comms.endpoint import place_of
 from missions.mission.part import Allowed, Part, Positive
 
 
 def _endpoint(text: str) -> str:
-    protocol, _, address = text.partition("/")
-    host, _, port = address.rpartition(":")
-    if protocol != "tcp" or not host or set(host) & set("/?#; ") or not (port.isdecimal() and 0 < int(port) < 65_536):
+    if not text.startswith("tcp/") or place_of(text) is None:
         raise ValueError("not an endpoint")
     return text
 

@@ -6,7 +6,7 @@ import socket
 
 import pytest
 
-from comms.endpoint import is_local, round_trip_s
+from comms.endpoint import is_local, place_of, round_trip_s
 
 
 @pytest.mark.parametrize(
@@ -41,3 +41,27 @@ def test_a_port_is_open_or_it_is_not() -> None:
 @pytest.mark.parametrize("endpoint", ["", "tcp", "tcp/:", "tcp/127.0.0.1:x", "tcp/127.0.0.1:99999", "tcp/127.0.0.1:-1"])
 def test_what_is_no_address_is_not_open(endpoint: str) -> None:
     assert round_trip_s(endpoint, timeout_s=1.0) is None
+
+
+@pytest.mark.parametrize(
+    ("endpoint", "place"),
+    [
+        ("tcp/127.0.0.1:7447", ("127.0.0.1", 7447)),
+        ("tls/10.0.0.5:1", ("10.0.0.5", 1)),
+        ("tcp/[::1]:7447", ("::1", 7447)),
+        ("tcp/drone-3.local:65535", ("drone-3.local", 65535)),
+        ("foo", None),
+        ("7447", None),
+        ("10.0.0.5:7447", None),
+        ("udp/127.0.0.1:7447", None),
+        ("tcp/127.0.0.1:0", None),
+        ("tcp/127.0.0.1:99999", None),
+        ("tcp/127.0.0.1:7447#iface=eth0", None),
+        ("tcp/[nobody]:7447", None),
+        ("tcp/::1:7447", None),
+        ("tcp/a b:7447", None),
+        ("", None),
+    ],
+)
+def test_an_endpoint_is_an_address_and_a_port(endpoint: str, place: tuple[str, int] | None) -> None:
+    assert place_of(endpoint) == place

@@ -262,6 +262,31 @@ def test_what_cannot_be_secured_is_said(
     assert said in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("endpoint", ["foo", "7447", "10.0.0.5:7447", "tcp/127.0.0.1:99999"])
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("status", "--connect"),
+        ("stop", "narrow", "--connect"),
+        ("agent", "narrow", "--id", "0", "--connect"),
+        ("agent", "narrow", "--id", "0", "--alone"),
+        ("record", "narrow", "--view", "--connect"),
+        ("world", "narrow", "--listen"),
+        ("launch", "narrow", "--listen"),
+        ("launch", "narrow", "--processes", "--listen"),
+        ("plan", "narrow", "--listen"),
+    ],
+    ids=" ".join,
+)
+def test_what_is_no_endpoint_is_refused_at_once(
+    words: tuple[str, ...], endpoint: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([*words, endpoint]) == 2
+    said = capsys.readouterr().err
+    assert f"{words[-1]}: got {endpoint}; allowed: tcp/ADDRESS:PORT, such as tcp/127.0.0.1:7447\n" in said
+    assert "--insecure to" not in said
+
+
 @pytest.mark.parametrize(
     ("name", "uids"),
     [
