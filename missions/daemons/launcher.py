@@ -12,6 +12,7 @@ import socket
 import subprocess
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from pathlib import Path
 from time import monotonic, sleep
 
 from rich.console import Console
@@ -21,7 +22,7 @@ from comms.keys import RECORDER
 from missions.daemons.options import ENDPOINTS
 from missions.daemons.processes import ProcessPlan
 from missions.ending import Ending
-from missions.exit_codes import BAD_INPUT, FAILED, STOPPED
+from missions.exit_codes import BAD_INPUT, DONE, FAILED, STOPPED
 from missions.problems import InputError
 from missions.sides.phases import RETURN_LIMIT_S
 
@@ -40,6 +41,7 @@ class _Child:
     def __init__(self, plan: ProcessPlan) -> None:
         self.plan = plan
         self.restarts_left = plan.restarts
+        self.given_up = False
         self._told: set[int] = set()
         self._process = self._started()
 
@@ -53,6 +55,11 @@ class _Child:
         self.restarts_left -= 1
         self._close()
         self._process = self._started()
+
+    def give_up(self, *, because: str = "") -> str:
+        """Let it be, and say so."""
+        self.given_up = True
+        return f"{self.plan.name} ended with code {self.code}: not started again{because}"
 
     def signal(self, number: int) -> None:
         """Send it a signal, if it still runs."""
@@ -88,13 +95,46 @@ class _Child:
             self._process.stdin.close()
 
 
+class _ReportFile:
+    """Where the world writes its report, if that is a file, and whether it is there."""
+
+    def __init__(self, path: Path | None) -> None:
+        self._path = path
+        self._before = self._mark()
+
+    def missing(self, code: int) -> str | None:
+        """What is to be said of a world that ended with that code, if it has left no report; None if there is no need.
+
+        A report that is there may be an earlier run's: this one's would be another file, as it is written whole.
+        """
+        after = self._mark()
+        silent = code >= 0 and (self._path is None or code in (DONE, BAD_INPUT))
+        if silent or after != self._before:
+            return None
+        said = f"world ended with code {code}: there is no report"
+        return said if after is None else f"{said}, and {self._path} is of an earlier run"
+
+    def _mark(self) -> tuple[int, int] | None:
+        try:
+            found = None if self._path is None else self._path.stat()
+        except OSError:
+            return None
+        return None if found is None else (found.st_ino, found.st_mtime_ns)
+
+
 def run_processes(
-    plans: Sequence[ProcessPlan], *, endpoint: str, console: Console, prepare: Callable[[], None] = lambda: None
+    plans: Sequence[ProcessPlan],
+    *,
+    endpoint: str,
+    console: Console,
+    prepare: Callable[[], None] = lambda: None,
+    report: Path | None = None,
 ) -> int:
     """Run a plan until its world ends. Returns the world's exit code: it knows whom it has lost, and who may be lost.
 
     Args:
         prepare: what is done before the first process starts, and only if they can meet.
+        report: the file to which the world writes its report.
 
     Raises:
         InputError: another process listens at the endpoint.
@@ -103,10 +143,11 @@ def run_processes(
     prepare()
     ending = Ending(lambda text: console.print(f"Stopping: {text}.", markup=False))
     children: list[_Child] = []
+    report_file = _ReportFile(report)
     with ending.listening():
         try:
             children.extend(_Child(plan) for plan in plans)
-            return _watch(children, ending, console)
+            return _watch(children, ending, console, report_file)
         except KeyboardInterrupt:
             for child in children:
                 child.hurry()
@@ -115,7 +156,7 @@ def run_processes(
             _end(children)
 
 
-def _watch(children: Sequence[_Child], ending: Ending, console: Console) -> int:
+def _watch(children: Sequence[_Child], ending: Ending, console: Console, report_file: _ReportFile) -> int:
     vital = [child for child in children if child.plan.vital]
     passed_on = False
     while all(child.code is None for child in vital):
@@ -126,13 +167,28 @@ def _watch(children: Sequence[_Child], ending: Ending, console: Console) -> int:
         for child in children:
             if child.plan.identity == RECORDER and child.code == BAD_INPUT:
                 return BAD_INPUT  # it has said why, and the world would wait for it in vain
-            if child.code not in (None, 0, BAD_INPUT) and child.restarts_left and not ending.asked:
-                console.print(f"{child.plan.name} ended with code {child.code}: started again", markup=False)
-                child.restart()
+            _tend(child, ending, console)
         sleep(LOOK_EVERY_S)
-    code = max((_exit_code(child.code) for child in vital if child.code is not None), default=FAILED)
+    codes = [child.code for child in vital if child.code is not None]
+    for missing in filter(None, map(report_file.missing, codes)):
+        console.print(missing, markup=False, soft_wrap=True)
+    code = max(map(_exit_code, codes), default=FAILED)
     _await_landing(children, console)
     return code
+
+
+def _tend(child: _Child, ending: Ending, console: Console) -> None:
+    """Start it again if it has failed, or say once that it is not."""
+    code = child.code
+    if code in (None, DONE) or child.plan.vital or child.given_up:
+        return
+    if code != BAD_INPUT and child.restarts_left and not ending.asked:
+        console.print(f"{child.plan.name} ended with code {code}: started again", markup=False)
+        child.restart()
+        return
+    is_used_up = child.plan.identity != RECORDER and code != BAD_INPUT and not child.restarts_left
+    because = f" (--restarts {child.plan.restarts})" if is_used_up else ""
+    console.print(child.give_up(because=because), markup=False)
 
 
 def _end(children: Sequence[_Child]) -> None:

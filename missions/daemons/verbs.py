@@ -6,6 +6,7 @@ import argparse
 import sys
 from collections.abc import Iterator, Sequence
 from math import isinf
+from pathlib import Path
 from time import time
 
 from comms.credentials import OPERATOR, Credentials, agents_name, agents_named
@@ -108,7 +109,9 @@ def launch(mission: Mission, options: argparse.Namespace) -> int:
         with tlogs(options.tlog, range(mission.agents.count), began_unix_s=None):
             pass
 
-    return run_processes(plans, endpoint=endpoint, console=outlet_console(stderr=True), prepare=empty_logs)
+    report = None if options.report in (None, "-") else Path(options.report)
+    console = outlet_console(stderr=True)
+    return run_processes(plans, endpoint=endpoint, console=console, prepare=empty_logs, report=report)
 
 
 def board(options: argparse.Namespace, *, speed: float) -> Board | None:

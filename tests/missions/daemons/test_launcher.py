@@ -30,6 +30,13 @@ while not (folder / "told").exists() and time.monotonic() < deadline_s:
 LAND = AWAIT + '(folder / "landed").touch()'
 # Two of a kind would be one.
 HURRY = AWAIT + "[os.kill(os.getppid(), number) for number in (signal.SIGINT, signal.SIGTERM)]; time.sleep(600)"
+KILLED = "import os, signal; os.kill(os.getpid(), signal.SIGKILL)"
+REPORTED = """
+import pathlib
+part = pathlib.Path("REPORT.part")
+part.write_text("of this run")
+part.replace("REPORT")
+raise SystemExit(1)"""
 
 NO_MISSION = (ProcessPlan(name="world", identity="world", words=("world", "no-such-mission"), vital=True),)
 NEEDS_IPV6 = pytest.mark.skipif("not has_ipv6()", reason="no IPv6 here")
@@ -116,3 +123,60 @@ def test_agents_that_outlive_their_world_are_told_of_and_may_land(
 
 def test_a_person_need_not_wait_for_them(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert launched(tmp_path, HURRY, monkeypatch) == 130
+
+
+def said_of(plans: tuple[ProcessPlan, ...], monkeypatch: pytest.MonkeyPatch, report: Path | None = None) -> str:
+    """What a launch of these programs says."""
+    monkeypatch.setattr(processes, "COMMAND", (processes.COMMAND[0], "-c"))
+    out = StringIO()
+    run_processes(plans, endpoint=free_endpoint(), console=Console(file=out, width=40), report=report)
+    return " ".join(out.getvalue().split())
+
+
+@pytest.mark.parametrize(
+    ("identity", "restarts", "program", "said"),
+    [
+        ("agents-2-3", 1, KILLED, "crew ended with code -9: not started again (--restarts 1)"),
+        ("agents-2-3", 0, KILLED, "crew ended with code -9: not started again (--restarts 0)"),
+        ("agents-2-3", 1, "raise SystemExit(2)", "crew ended with code 2: not started again"),
+        ("recorder", 0, KILLED, "crew ended with code -9: not started again"),
+    ],
+)
+def test_who_is_dead_for_good_is_told_of_once(
+    identity: str, restarts: int, program: str, said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # The world ends some looks after the last of them.
+    begun = f"import os, pathlib, time; folder = pathlib.Path({str(tmp_path)!r}); "
+    count = begun + "(folder / str(os.getpid())).touch(); "
+    lives = 1 + (restarts if program == KILLED else 0)
+    world = f"{begun}\nwhile len(list(folder.iterdir())) < {lives}: time.sleep(0.01)\ntime.sleep(1.0)"
+    plans = (
+        ProcessPlan(name="world", identity="world", words=(world,), vital=True),
+        ProcessPlan(name="crew", identity=identity, words=(count + program,), restarts=restarts),
+    )
+    again = "crew ended with code -9: started again " * (lives - 1)
+    assert said_of(plans, monkeypatch) == f"{again}{said}"
+
+
+@pytest.mark.parametrize(
+    ("program", "older", "said"),
+    [
+        (KILLED, False, "world ended with code -9: there is no report"),
+        (KILLED, True, "world ended with code -9: there is no report, and REPORT is of an earlier run"),
+        ("raise SystemExit(1)", True, "world ended with code 1: there is no report, and REPORT is of an earlier run"),
+        ("raise SystemExit(2)", True, ""),  # it has said why
+        (REPORTED, False, ""),
+        (REPORTED, True, ""),
+    ],
+)
+def test_a_world_that_left_no_report_is_told_of_and_an_older_one_is_not_taken_for_its(
+    program: str, older: bool, said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    report = tmp_path / "r.json"
+    if older:
+        report.write_text("older")
+    words = (program.replace("REPORT", str(report)),)
+    plans = (ProcessPlan(name="world", identity="world", words=words, vital=True),)
+    assert said_of(plans, monkeypatch, report) == said.replace("REPORT", str(report))
+    if older and program != REPORTED:
+        assert report.read_text() == "older"
