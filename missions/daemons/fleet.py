@@ -7,7 +7,7 @@ that is everybody of its mission, whether they are there or not; elsewhere those
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass
 from time import sleep
 
@@ -26,6 +26,7 @@ from missions.daemons.orders import Answer, Report, Verb, decode_answer
 from missions.daemons.security import silence, why
 from missions.exit_codes import DONE, FAILED
 from missions.mission.agents import MOST_AGENTS
+from missions.problems import InputError
 
 REACHED = "A launch is reached that has --speed, --listen or --processes, and `swarm world`, and `swarm agent --alone`."
 CONNECT_S = 3.0
@@ -93,19 +94,40 @@ def _addressed(bus: Network, verb: Verb, options: FleetOptions) -> list[Who]:
     """Who is to answer: those who are there, those who belong to a world that is, and those who were named.
 
     All stop when their world does.
+
+    Raises:
+        InputError: who is named belongs to none of the worlds that are there.
     """
     there = [found for key in bus.alive(EVERYBODY_OF_ANY_MISSION) if (found := somebody(key)) is not None]
     named = [(keys.mission, who) for keys, who in there if options.mission in (None, keys.mission)]
+    there_too = {(mission, int(who)) for mission, who in named if who.isdigit() and len(who) <= 9}
+    crews = [(mission, size) for mission, who in named if (size := crew_size(who)) is not None]
     if options.uids is not None:
         missions = sorted({mission for mission, _ in named} | ({options.mission} if options.mission else set()))
-        return [(mission, str(uid)) for mission in missions for uid in options.uids]
+        sizes = {mission: max(size for name, size in crews if name == mission) for mission, _ in crews}
+        return _of_their_crews(missions, options.uids, sizes, there_too)
     whole = [(mission, WORLD) for mission, who in named if who in (WORLD, FLIGHT)]
     if verb is Verb.STOP and whole:
         return whole
-    there_too = {(mission, int(who)) for mission, who in named if who.isdigit() and len(who) <= 9}
-    crews = [(mission, size) for mission, who in named if (size := crew_size(who)) is not None]
     belong = {(mission, uid) for mission, size in crews for uid in range(min(size, MOST_AGENTS))}
     return [(mission, str(uid)) for mission, uid in sorted(there_too | belong)]
+
+
+def _of_their_crews(
+    missions: Sequence[str], uids: Sequence[int], sizes: Mapping[str, int], there_too: Set[tuple[str, int]]
+) -> list[Who]:
+    """These agents of each mission that has them. Where there is no world, nobody knows how many it has."""
+    found = [
+        (mission, uid)
+        for mission in missions
+        for uid in uids
+        if mission not in sizes or uid < sizes[mission] or (mission, uid) in there_too
+    ]
+    strangers = sorted(set(uids) - {uid for _, uid in found}) if missions else []
+    if strangers:
+        most = max(sizes.values()) - 1
+        raise InputError(f"--id: got {strangers[0]}; allowed: a number from 0 to {most}, or several, such as 0-{most}")
+    return [(mission, str(uid)) for mission, uid in found]
 
 
 def _watch(bus: Network, options: FleetOptions, console: Console) -> int:

@@ -117,8 +117,8 @@ def test_a_swarm_is_held_resumed_landed_and_stopped(how: tuple[str, ...], tmp_pa
         assert code == 1  # two hold, one has landed
         assert (text.count("holds"), text.count("is landed")) == (2, 1), text
         code, text = tell("return", *at, "--id", "7")
-        assert code == 1
-        assert "does not answer" in text
+        assert code == 2
+        assert "--id: got 7; allowed: a number from 0 to 2" in text
         code, text = tell("stop", *at)
         assert (code, text.count("everybody comes home")) == (0, 1), text
         assert run.wait() == 0, run.output
@@ -222,6 +222,10 @@ def test_where_a_launch_is_spoken_to(
     assert (board and board.endpoint, board and board.is_required) == (at, is_required)
 
 
+def answer_at_once(question: Question) -> None:
+    question.answer(encode_answer(Answer(obeyed=True, text="")))
+
+
 def test_others_may_not_speak_to_a_launch_unasked(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["launch", "narrow", "--speed", "1", "--listen", "tcp/0.0.0.0:7447"]) == 2
     assert "--listen: got tcp/0.0.0.0:7447, where other computers may come in" in capsys.readouterr().err
@@ -304,3 +308,32 @@ def test_without_a_mission_whoever_a_mission_may_have_can_be_named() -> None:
     assert verbs.whole_range("250-999") == tuple(range(250, 1000))
     with pytest.raises(InputError, match=r'--id: got "1000"; allowed: a number from 0 to 999'):
         verbs.whole_range("1000")
+
+
+def test_who_is_in_no_crew_is_not_asked_and_that_is_said() -> None:
+    few, many, endpoint = Keys("few"), Keys("many"), free_endpoint()
+    with ExitStack() as stack:
+        world = stack.enter_context(open_router(endpoint, lossless=True))
+        agents = stack.enter_context(open_client(endpoint, lossless=True, patience_s=PATIENCE_S))
+        agents.answer(many.every_command(3), answer_at_once)
+        agents.answer(few.every_command(7), answer_at_once)
+        person = stack.enter_context(open_client(endpoint, lossless=True, patience_s=PATIENCE_S))
+
+        def told(*uids: int, mission: str | None = None) -> list[tuple[str, str]]:
+            return list(ask(person, Verb.HOLD, FleetOptions(mission=mission, uids=uids)))
+
+        world.declare_alive(few.crew(3))
+        until(lambda: person.alive(few.every_alive) != [])
+        with pytest.raises(InputError, match=r"^--id: got 99; allowed: a number from 0 to 2,"):
+            told(99)
+        world.declare_alive(many.crew(5))
+        until(lambda: person.alive(many.every_alive) != [])
+        assert told(3) == [("many", "3")]
+        with pytest.raises(InputError, match=r"^--id: got 3; allowed: a number from 0 to 2,"):
+            told(3, mission="few")
+        with pytest.raises(InputError, match=r"^--id: got 5; allowed: a number from 0 to 4,"):
+            told(3, 5)
+        # Who is there is told, whatever the world says.
+        agents.declare_alive(few.alive(7))
+        until(lambda: few.alive(7) in person.alive(few.every_alive))
+        assert told(7) == [("few", "7")]
