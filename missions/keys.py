@@ -87,12 +87,26 @@ def allowed(field: FieldInfo) -> str:
     if kinds:
         chosen = chooser(field)
         return f"a mapping with keys such as {next(iter(kinds[_ONLY].model_fields)) if chosen is None else chosen[0]}"
-    for note in field.metadata:
-        if isinstance(note, Allowed):
-            return note.text
+    said = _said(field)
+    if said is not None:
+        return said
     choices = [choice for choice in get_args(field.annotation) if choice is not NoneType]
     text = _allowed_value(choices[0] if _is_optional(field) else field.annotation, field.metadata)
     return f"{text}, or null" if _is_optional(field) else text
+
+
+def is_list(field: FieldInfo) -> bool:
+    """Whether a field takes a list of sections."""
+    return bool(variants(field)) and get_origin(field.annotation) is tuple
+
+
+def allowed_list(field: FieldInfo) -> str:
+    """What such a list may be, in words; `allowed` tells of its parts."""
+    return _said(field) or f"a list; each of it {allowed(field)}"
+
+
+def _said(field: FieldInfo) -> str | None:
+    return next((note.text for note in field.metadata if isinstance(note, Allowed)), None)
 
 
 def _is_optional(field: FieldInfo) -> bool:

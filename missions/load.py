@@ -21,7 +21,7 @@ from ruamel.yaml import YAML
 
 from missions.document import Document, read_document, step
 from missions.faults.consistency import fault_rules
-from missions.keys import Key, allowed, chooser, find_key
+from missions.keys import Key, allowed, allowed_list, chooser, find_key, is_list
 from missions.mission import Mission, Part
 from missions.overrides import Override, Setting, apply_override
 from missions.problems import Mark, MissionError, Path, Problem, did_you_mean, shown
@@ -31,6 +31,8 @@ LIBRARY = FilePath(__file__).parent / "library"
 
 P = TypeVar("P", bound=Part)
 
+NO_LIST = ("tuple_type", "too_long", "too_short")
+"""What pydantic calls it where a whole list is wrong, and not a part of it."""
 _MAX_BYTES = 1_000_000
 _FILES: tuple[Path, ...] = (("targets", "file"), ("policy", "weights"), ("vehicle", "signing_key"))
 
@@ -161,6 +163,8 @@ def key_problem(document: Document, error: ErrorDetails, root: type[Part] = Miss
     if key.field is None:
         known = list(key.section.model_fields)
         return Problem(mark, key.path, "an unknown key", ", ".join(known) + did_you_mean(key.path[-1], known))
+    if error["type"] in NO_LIST and is_list(key.field):
+        return Problem(mark, key.path, shown(error["input"]), allowed_list(key.field))
     chosen = chooser(key.field)
     if chosen is not None and isinstance(error["input"], dict):
         path = (*key.path, chosen[0])

@@ -25,6 +25,7 @@ ENDPOINTS = "a list with tcp/ADDRESS:PORT for each agent"
 NO_RADIO = "faults of another kind: where radio.mode is field, no radio is simulated"
 TRACKS = "the path of a CSV of tracks (--set targets.file=PATH)"
 
+FAULTS = "a list of at most 1000 faults, such as [{kind: kill, at_s: 60, agents: [3]}]"
 KINDS = f"{', '.join(faults.KINDS[:-1])} or {faults.KINDS[-1]}"
 UIDS = "a list of agents' numbers, from 0"
 
@@ -34,6 +35,13 @@ CASES: dict[str, tuple[str, list[str]]] = {
     "a fault without a kind, and one of another": ("name: m\nfaults:\n  - {at_s: 1}\n  - {kind: fire, at_s: 1}\n", [
         f":3: faults.0.kind: got nothing; allowed: {KINDS}",
         f':4: faults.1.kind: got "fire"; allowed: {KINDS}',
+    ]),
+    "a fault without its dash": ("name: m\nfaults: {kind: kill, at_s: 1, agents: [0]}\n", [
+        f":2: faults: got a mapping; allowed: {FAULTS}",
+    ]),
+    "faults that are no list": ("name: m\nfaults: 3\n", [f":2: faults: got 3; allowed: {FAULTS}"]),
+    "a fault that is none": ("name: m\nfaults: [3]\n", [
+        ":2: faults.0: got 3; allowed: a mapping with keys such as kind",
     ]),
     "a fault at no time, of nobody": ("name: m\nfaults:\n  - kind: kill\n    at_s: -1\n", [
         f":3: faults.0.agents: got nothing; allowed: {UIDS}",
