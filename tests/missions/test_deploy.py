@@ -64,6 +64,12 @@ def test_a_world_that_ends_does_not_begin_again() -> None:
     assert settings((FOLDER / "swarm-world.service").read_text())["Restart"] == "no"
 
 
+def test_the_recorder_is_stopped_after_the_world() -> None:
+    recorder = settings((FOLDER / "swarm-recorder.service").read_text())
+    assert recorder["Before"] == "swarm-world.service"
+    assert "swarm-world" not in recorder["After"]
+
+
 def test_what_the_units_start_is_a_mission(tmp_path: Path) -> None:
     pytest.importorskip("rerun")
     variables = settings((FOLDER / "swarm.env").read_text())
