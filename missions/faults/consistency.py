@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 
 from missions.mission import Mission
@@ -20,6 +21,7 @@ def fault_rules(mission: Mission) -> Iterator[Rule]:
             yield Rule(f"{at}.groups", ("agents.count",), partial(_groups_part_agents, fault))
             continue
         yield Rule(f"{at}.agents", ("agents.count",), partial(_among, fault.agents or ()))
+        yield Rule(f"{at}.agents", (), partial(_once, fault.agents or ()))
         if isinstance(fault, VEHICLE_FAULTS):
             yield Rule(f"{at}.agents", ("vehicle.links",), partial(_vehicles_are_simulated, fault.agents))
 
@@ -32,6 +34,11 @@ def _groups_part_agents(fault: Partition, mission: Mission) -> str | None:
 def _among(uids: Iterable[int], mission: Mission) -> str | None:
     count = mission.agents.count
     return f"numbers from 0 to {count - 1}, below agents.count ({count})" if any(u >= count for u in uids) else None
+
+
+def _once(uids: Sequence[int], _: Mission) -> str | None:
+    twice = [uid for uid, times in Counter(uids).items() if times > 1]
+    return f"each agent once; {twice[0]} is there twice" if twice else None
 
 
 def _radio_is_simulated(mission: Mission) -> str | None:

@@ -53,6 +53,9 @@ CASES: dict[str, tuple[str, list[str]]] = {
     "agents that there are not": ("name: m\nagents: {count: 3}\nfaults:\n  - {kind: freeze, at_s: 1, agents: [3]}\n", [
         ":4: faults.0.agents: got a list; allowed: numbers from 0 to 2, below agents.count (3)",
     ]),
+    "an agent twice": ("name: m\nfaults:\n  - {kind: kill, at_s: 1, agents: [3, 4, 3]}\n", [
+        ":3: faults.0.agents: got a list; allowed: each agent once; 3 is there twice",
+    ]),
     "an agent in two groups": ("name: m\nfaults:\n  - {kind: partition, at_s: 1, groups: [[0, 1], [1]]}\n", [
         ":3: faults.0.groups: got a list; allowed: each agent in one group",
     ]),
