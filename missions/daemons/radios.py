@@ -15,6 +15,27 @@ def radios_of(mission: Mission) -> dict[str, list[int]]:
     return {endpoint: list(group) for endpoint, group in by_endpoint}
 
 
+def check_processes(mission: Mission, per_process: int) -> None:
+    """See that agents of one process have one radio, and those of two have two.
+
+    Raises:
+        InputError: so many agents in a process do not fit the mission's radios.
+    """
+    groups = list(radios_of(mission).values())
+    if groups and groups != _in_processes(mission, per_process):
+        n = len(groups[0])
+        fitting = f"{n}" if groups == _in_processes(mission, n) else "no number, but swarm agent for each of them"
+        raise InputError(
+            f"--processes: got {per_process}; allowed: {fitting}, as agents of one process, and no others, share one "
+            "of radio.endpoints"
+        )
+
+
+def _in_processes(mission: Mission, n: int) -> list[list[int]]:
+    uids = list(range(mission.agents.count))
+    return [uids[first : first + n] for first in range(0, len(uids), n)]
+
+
 def own_endpoint(mission: Mission, uids: Sequence[int]) -> str:
     """Where the radio of the process that runs these agents listens.
 

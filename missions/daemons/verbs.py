@@ -14,7 +14,7 @@ from comms.keys import RECORDER, WORLD
 from comms.status import Level
 from missions.daemons.options import ENDPOINT, DaemonOptions
 from missions.daemons.processes import ProcessOptions, ProcessPlan, plan_processes
-from missions.daemons.radios import own_endpoint
+from missions.daemons.radios import check_processes, own_endpoint
 from missions.daemons.security import check_all_known, check_complete, check_listening, credentials_of, endpoint_of
 from missions.load import load_mission
 from missions.mission import Mission
@@ -184,6 +184,7 @@ def processes(
         keys=options.keys,
         insecure=options.insecure,
     )
+    check_processes(mission, options.processes)
     plans = plan_processes(mission, settings)
     for plan in plans:
         credentials = credentials_of(options.keys, plan.identity)

@@ -26,6 +26,7 @@ from tests.patience import PATIENCE_S, until
 
 KEYS = Keys("tour")
 FIELD = ("--set", "radio.mode=field")
+UNEVEN = ("--set", "agents.count=3", "--set", "radio.endpoints=[tcp/127.0.0.1:1, tcp/127.0.0.1:2, tcp/127.0.0.1:2]")
 FAULTS = "faults=[{kind: kill, at_s: 4, for_s: 5, agents: [1]}, {kind: freeze, at_s: 6, for_s: 4, agents: [2]}]"
 
 
@@ -169,7 +170,8 @@ def test_whose_frame_names_another_sender_is_not_believed(net: Radios) -> None:
     ("words", "said"),
     [
         (("agent", "narrow", "--id", "0-1", *FIELD, *radios(10)), "--id: got 0-1; allowed: 0, which shares tcp/"),
-        (("plan", "narrow", "--processes", "5", *FIELD, *radios(10)), "--id: got 0-4; allowed: 0, which shares tcp/"),
+        (("plan", "narrow", "--processes", "5", *FIELD, *radios(10)), "--processes: got 5; allowed: 1, as agents"),
+        (("launch", "narrow", "--processes", *FIELD, *UNEVEN), "--processes: got 1; allowed: no number, but"),
         (("world", "narrow", "--speed", "max", *FIELD, *radios(10)), "--speed: got max; allowed: a number"),
         (
             ("agent", "narrow", "--id", "0", *FIELD, "--set", "radio.endpoints=[tcp/10.0.0.5:7448]"),
