@@ -2,7 +2,8 @@
 
 It says hello until the world cues it, and then does a tick for each cue. Asked to end, it flies home, lands, and goes.
 Where another process is the agent already, the world does not let it in, and it goes: at once, or when it has brought
-down what it flies, unless the other one flies that, too.
+down what it flies, unless the other one flies that, too. A world that is started again is another world: who has met
+the first one flies home, and ends as one that has failed, so that it is started anew for the second.
 While the world is silent it holds still on its own clock (`seat`, `contact`) and says hello; after the mission's
 `agents.world_timeout_s` it flies home, and so it does when the world ends.
 """
@@ -31,7 +32,7 @@ from missions.daemons.orders import Orders, Verb
 from missions.daemons.questions import Questions
 from missions.daemons.seat import Seat
 from missions.daemons.security import silence
-from missions.daemons.wire import OVER, TAKEN, decode_cue
+from missions.daemons.wire import FOREIGN, OVER, TAKEN, decode_cue
 from missions.ending import Ending
 from missions.exit_codes import BAD_INPUT, FAILED, STOPPED
 from missions.links import open_transports
@@ -45,6 +46,7 @@ from missions.tlog import Tlog, failures, tlogs
 
 HELLO_EVERY_S = 0.1
 MOST_AT_ONCE = 20  # ticks that are made up for before it listens again
+UNANSWERED_S = 5.0  # a world that is there and says nothing for longer may not hear us
 FRAMES_LATE_S = 10.0  # frames that are under way and do not come for so long are lost
 FRAME_LOOK_S = 1e-4
 HOME_FIRST = "its vehicle is in the air: flying home first"
@@ -106,7 +108,10 @@ class _Daemon:
         self._fingerprint = fingerprint(mission, options.speed)
         self._life = new_life()
         self._greeted_at_s = -inf
+        self._world = 0  # the life of the one that it has met
         self._gone_at_s: float | None = None
+        self._came_at_s = inf
+        self._is_unanswered = True  # and has not said so
         self._is_world_there = False
         self._is_closing = False
         self._hide: dict[int, Callable[[], None]] = {}  # takes back that an agent is there
@@ -135,6 +140,7 @@ class _Daemon:
                     break
                 if self._is_world_there:  # and waits for others
                     deadline_s = monotonic() + self._options.join_s
+                    self._tell_if_unanswered()
                 if monotonic() > deadline_s:
                     hint = silence(self._options.credentials)
                     self._log.error(
@@ -178,7 +184,15 @@ class _Daemon:
         if self._gone_at_s is None and now_s - self._greeted_at_s >= HELLO_EVERY_S:
             self._greeted_at_s = now_s
             for seat in self._seats.values():
-                seat.greet(self._fingerprint)
+                seat.greet(self._fingerprint, world=self._world)
+
+    def _tell_if_unanswered(self) -> None:
+        """The world may wait for others, and says nothing meanwhile; but so it is, too, where it does not hear us."""
+        credentials, there_s = self._options.credentials, monotonic() - self._came_at_s
+        if self._is_unanswered and credentials is not None and there_s > UNANSWERED_S:
+            self._is_unanswered = False
+            text = f"the world of {self._mission.name} is there, and has not answered our hello: it may wait for others"
+            self._log.say(Level.WARNING, text + silence(credentials))
 
     def _take(self, seat: Seat, wires: Iterable[bytes]) -> None:
         """What has come from the world: of cues the newest one counts."""
@@ -189,21 +203,26 @@ class _Daemon:
                 seat.over = not seat.is_aloft
                 return
             cue = decode_cue(wire)
-            if cue is not None and cue.life == self._life:
+            if cue is None or cue.life != self._life:
+                continue
+            if cue.refused or self._world in (0, cue.world):
                 newest = cue
         if newest is None or seat.over:  # it may have come down with another one
             return
+        self._is_unanswered = False
         if newest.refused:
             self._turn_away(seat, newest.refused)
         else:
+            self._world = newest.world
             self._heed(seat, newest)
 
     def _turn_away(self, seat: Seat, why: str) -> None:
-        """The world does not let it in, and never will."""
+        """The world does not let this process in, and never will."""
         who = agents_name([seat.uid])
         self._log.say(Level.ERROR, why, who=who)
         self._hide[seat.uid]()  # or nobody would notice the death of the one that is there
         aloft = [other for other in self._flying() if other.is_aloft]
+        code = FAILED if why == FOREIGN else BAD_INPUT  # started anew it is let in
         if why == TAKEN:
             seat.side.tap = None  # the other one keeps the log
             aloft = [seat] if seat.is_aloft else []
@@ -211,8 +230,8 @@ class _Daemon:
             self._log.say(Level.ERROR, LEFT_TO_OTHER, who=who)
         elif aloft:
             self._log.say(Level.ERROR, HOME_FIRST, who=who)
-            self._fly_home(aloft, code=BAD_INPUT)
-        seat.end(BAD_INPUT)
+            self._fly_home(aloft, code=code)
+        seat.end(code)
 
     def _heed(self, seat: Seat, cue: Cue) -> None:
         """Do the tick of a cue."""
@@ -252,7 +271,8 @@ class _Daemon:
             sleep(FRAME_LOOK_S)
 
     def _on_world(self, key: str, is_there: bool) -> None:
-        self._gone_at_s = None if is_there else monotonic()
+        now_s = monotonic()
+        self._gone_at_s, self._came_at_s = (None, now_s) if is_there else (now_s, inf)
         self._greeted_at_s = -inf
         self._is_world_there = is_there
         self._mail.wake()

@@ -19,8 +19,9 @@ from comms.mailbox import Mailbox
 from comms.radio import Roster
 from comms.session import Network
 from comms.status import Activity, Event, Level
+from missions.daemons.joining import new_life
 from missions.daemons.member import Member
-from missions.daemons.wire import OVER, STRANGE, TAKEN, UNRELIABLE, decode_done, encode
+from missions.daemons.wire import FOREIGN, OVER, STRANGE, TAKEN, UNRELIABLE, decode_done, encode
 from missions.sides.exchange import HELLO_TICK, Cue, Done
 from missions.sides.medium import Medium
 
@@ -82,6 +83,7 @@ class RemoteCrew:
         self._medium = medium
         self._patience = patience
         self._fingerprint = fingerprint
+        self._world = new_life()  # a world that is started again is another one
         self._tell = tell
         self._stop = stop
         self._roster = roster
@@ -146,7 +148,7 @@ class RemoteCrew:
         # The radio of one that is new has not been waiting for what is under way.
         unchecked = member.is_new or not self._patience.lockstep
         frames = None if unchecked else cue.frames
-        self._puts[member.uid](encode(structs.replace(cue, frames=frames, life=member.life)))
+        self._puts[member.uid](encode(structs.replace(cue, frames=frames, life=member.life, world=self._world)))
         member.is_new = False
 
     def _collect(self) -> None:
@@ -180,13 +182,16 @@ class RemoteCrew:
             self._refuse(member.uid, hello.life, UNRELIABLE)
         elif member.is_rival_in_vain(hello.life):
             self._refuse(member.uid, hello.life, TAKEN)
+        elif hello.world not in (0, self._world) and not member.is_there:
+            # Our ticks are of the past to it. Where another process is there, that one may fly the vehicle: see TAKEN.
+            self._refuse(member.uid, hello.life, FOREIGN)
         else:
             has_come = member.done is not None
             if member.greet(hello, now_s) and has_come:
                 self._say(member, Event(Level.WARNING, BACK))
 
     def _refuse(self, uid: int, life: int, why: str) -> None:
-        self._puts[uid](encode(Cue(tick=self._tick, life=life, refused=why)))
+        self._puts[uid](encode(Cue(tick=self._tick, life=life, refused=why, world=self._world)))
         if (uid, why) not in self._refused:
             self._refused.add((uid, why))
             self._tell(uid, Event(Level.ERROR, why))

@@ -69,10 +69,11 @@ class Seat(Attended):
         """Whether there is nothing that it can still do for its vehicle."""
         return self.activity is Activity.LANDED or self.last.unheard
 
-    def greet(self, fingerprint: str) -> None:
-        """Say hello, if the world does not cue it."""
+    def greet(self, fingerprint: str, *, world: int = 0) -> None:
+        """Say hello, if the world does not cue it; `world` is the one that this process has met."""
         if (self.away or self.contact.silent_s(monotonic()) > FORGOTTEN_S) and not self.over:
-            self._put(encode(structs.replace(self.side.hello(), fingerprint=fingerprint, life=self._life)))
+            hello = structs.replace(self.side.hello(), fingerprint=fingerprint, life=self._life, world=world)
+            self._put(encode(hello))
 
     def end(self, code: int) -> None:
         """There is nothing left to do for it."""
@@ -101,7 +102,8 @@ class Seat(Attended):
             told = structs.replace(self.last, tick=cue.tick, spoke=False)
         events = (*self._untold, *news)
         self._untold.clear()
-        self._put(encode(structs.replace(told, status=structs.replace(told.status, events=events), life=self._life)))
+        status = structs.replace(told.status, events=events)
+        self._put(encode(structs.replace(told, status=status, life=self._life, world=cue.world)))
         return news
 
     def go_on_alone(self, now_s: float) -> Sequence[Event]:

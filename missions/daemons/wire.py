@@ -17,6 +17,7 @@ OVER = b""  # in place of a cue or an observation: the mission is over
 STRANGE = "has another mission, or another --speed, and is not let in: are its file and options the world's?"
 TAKEN = "is there already, in another process, which goes on: a second one is not let in"
 UNRELIABLE = "has left too many ticks unanswered, each of which everybody had to wait for: it is not let in again"
+FOREIGN = "flies another world's mission, and comes home first: it is not let in"
 
 T = TypeVar("T")
 

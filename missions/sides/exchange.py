@@ -4,7 +4,8 @@ A `Cue` begins tick k for one agent; its `Done` tells what came of it, with the 
 before the first cue, of tick -1, says that an agent is there.
 
 Where agents are processes, both name a *life*: a number that a process draws when it starts. The world lets one life of
-an agent in, by its first `Done`, and heeds no other; a process heeds no cue but those for its own.
+an agent in, by its first `Done`, and heeds no other; a process heeds no cue but those for its own. The world has a
+life, too: another world's ticks begin anew, and so who has met one heeds no other.
 """
 
 from __future__ import annotations
@@ -35,6 +36,7 @@ class Cue(msgspec.Struct, frozen=True, kw_only=True, array_like=True):
         late_s: how late the tick began, on the wall clock.
         silent: whatever the agent would say by radio is not sent.
         life: whom it is for. refused: why that one is not let in; the rest of the cue means nothing then.
+        world: the life of the world that says it.
     """
 
     tick: int
@@ -50,6 +52,7 @@ class Cue(msgspec.Struct, frozen=True, kw_only=True, array_like=True):
     silent: bool = False
     life: int = 0
     refused: str = ""
+    world: int = 0
 
 
 class LinkCount(msgspec.Struct, frozen=True, array_like=True):
@@ -91,7 +94,7 @@ class Done(msgspec.Struct, frozen=True, kw_only=True, array_like=True):
         radio: what went over its radio.
         leaves: it has landed, and is asked to end: nobody need wait for it any longer.
         fingerprint: in the first one, of the mission that it was given.
-        life: of the process that says it.
+        life: of the process that says it. world: the life of the world that this one has met; 0: it has met none.
     """
 
     tick: int
@@ -107,3 +110,4 @@ class Done(msgspec.Struct, frozen=True, kw_only=True, array_like=True):
     leaves: bool = False
     fingerprint: str = ""
     life: int = 0
+    world: int = 0

@@ -15,7 +15,7 @@ from comms.radio import Roster
 from comms.status import Activity, AgentStatus, Event, Level
 from missions.daemons import member
 from missions.daemons.crew import BACK, DIED, LEFT_IN_AIR, MOST_IN_VAIN, UNHEARD, CrewError, Patience, RemoteCrew
-from missions.daemons.wire import STRANGE, TAKEN, UNRELIABLE, decode_cue, encode
+from missions.daemons.wire import FOREIGN, STRANGE, TAKEN, UNRELIABLE, decode_cue, encode
 from missions.observation import AgentTruth
 from missions.sides.exchange import HELLO_TICK, Cue, Done, LinkCount
 from missions.sides.medium import Medium, OpenField, SimulatedAir
@@ -33,11 +33,12 @@ class Process:
     """A process of agent `uid` that does a tick for each cue, unless it is `busy`, and `speaks` in it, or says so.
 
     Attributes:
-        cued: the ticks that it was told to do. refused: why it was not let in.
+        cued: the ticks that it was told to do. refused: why it was not let in. world: that it has met.
     """
 
-    def __init__(self, bus: FakeBus, uid: int, *, life: int, fingerprint: str = PRINT) -> None:
+    def __init__(self, bus: FakeBus, uid: int, *, life: int, fingerprint: str = PRINT, world: int = 0) -> None:
         self.uid = uid
+        self.world = world
         self.cued: list[int] = []
         self.refused = ""
         self.busy = False
@@ -63,6 +64,7 @@ class Process:
             on_ground=False,
             leaves=leaves,
             life=self._life,
+            world=self.world,
             pilot=LinkCount(sent=max(0, tick)),
         )
 
@@ -80,6 +82,7 @@ class Process:
         if cue.refused:
             self.refused = cue.refused
             return
+        self.world = cue.world
         self.cued.append(cue.tick)
         if not self.busy:
             self.do(cue.tick)
@@ -314,3 +317,47 @@ def test_who_holds_up_everybody_again_and_again_is_not_let_in_any_more() -> None
     mission.tick()
     assert mute.refused == UNRELIABLE
     assert [done.tick for done in mission.tick()] == [4, -1, 4]
+
+
+def test_who_has_met_another_world_is_not_let_in_until_it_is_started_anew() -> None:
+    old, mission = Mission(), Mission()
+    old.tick()
+    mission.tick()
+    assert old.processes[1].world not in (0, mission.processes[1].world)
+    mission.processes[1].die()
+    mission.tick()
+    foreign = Process(mission.bus, 1, life=99, world=old.processes[1].world)
+    for _ in range(2):
+        foreign.hello()
+        [_, lost, _] = mission.tick()
+        assert lost.status.activity is Activity.LOST
+    assert (foreign.refused, foreign.cued) == (FOREIGN, [])
+    assert mission.told == [(1, DIED), (1, FOREIGN)]
+    anew = Process(mission.bus, 1, life=100)
+    anew.hello()
+    mission.tick()
+    assert (anew.refused, anew.cued) == ("", [4])
+
+
+def test_who_was_cut_off_from_the_same_world_is_let_in() -> None:
+    mission = Mission()
+    mission.tick()
+    agent = mission.processes[1]
+    mission.bus.appear(KEYS.alive(1), is_there=False)
+    mission.tick()
+    assert agent.world != 0
+    agent.hello()
+    mission.tick()
+    assert (agent.refused, agent.cued) == ("", [0, 2])
+
+
+def test_where_the_next_life_is_there_one_of_another_world_leaves_the_vehicle_to_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(member, "SURE_S", 0.0)
+    mission = Mission()
+    foreign = Process(mission.bus, 1, life=99, world=7)
+    for _ in range(2):
+        foreign.hello()
+        mission.tick()
+    assert foreign.refused == TAKEN

@@ -61,17 +61,17 @@ class Flight:
 
     def tick(self, n: int = 1) -> None:
         for _ in range(n):
-            self.seat.take(Cue(tick=self.seat.last.tick + 1, life=LIFE))
+            self.seat.take(Cue(tick=self.seat.last.tick + 1, life=LIFE, world=5))
 
 
 def test_all_that_it_says_is_of_its_life() -> None:
     flight = Flight()
-    flight.seat.greet("print")
+    flight.seat.greet("print", world=5)
     flight.tick(2)
-    assert [(done.tick, done.life, done.fingerprint) for done in flight.told] == [
-        (HELLO_TICK, LIFE, "print"),
-        (0, LIFE, ""),
-        (1, LIFE, ""),
+    assert [(done.tick, done.life, done.world, done.fingerprint) for done in flight.told] == [
+        (HELLO_TICK, LIFE, 5, "print"),
+        (0, LIFE, 5, ""),
+        (1, LIFE, 5, ""),
     ]
 
 
