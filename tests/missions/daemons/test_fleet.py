@@ -18,6 +18,7 @@ import pytest
 from rich.console import Console
 
 from comms.keys import WORLD, Keys
+from comms.radio import ANYBODY
 from comms.session import Network, Question, open_client, open_router
 from comms.status import Activity, AgentStatus, Event, Level
 from missions.cli import main
@@ -132,7 +133,7 @@ def test_what_an_agent_was_told_before_a_mission_under_way_takes_it_in_stands() 
     heard: SimpleQueue[Done] = SimpleQueue()
 
     def hear(key: str, wire: bytes) -> None:
-        if (done := decode_done(wire, 1)) is not None:
+        if (done := decode_done(wire, 1, ANYBODY)) is not None:
             heard.put(done)
 
     with open_router(endpoint, lossless=True) as world:
