@@ -109,10 +109,9 @@ class _Daemon:
         self._life = new_life()
         self._greeted_at_s = -inf
         self._world = 0  # the life of the one that it has met
-        self._gone_at_s: float | None = None
-        self._came_at_s = inf
+        self._gone_at_s: float | None = None  # the world
+        self._came_at_s: float | None = None  # and is there
         self._is_unanswered = True  # and has not said so
-        self._is_world_there = False
         self._is_closing = False
         self._hide: dict[int, Callable[[], None]] = {}  # takes back that an agent is there
         self._puts = {uid: bus.publisher(self._keys.done(uid)) for uid in self._radios}
@@ -138,9 +137,9 @@ class _Daemon:
             if not any(seat.met for seat in self._seats.values()):
                 if self._ending.asked:
                     break
-                if self._is_world_there:  # and waits for others
+                if (came_at_s := self._came_at_s) is not None:  # the world, and it waits for others
                     deadline_s = monotonic() + self._options.join_s
-                    self._tell_if_unanswered()
+                    self._tell_if_unanswered(monotonic() - came_at_s)
                 if monotonic() > deadline_s:
                     hint = silence(self._options.credentials)
                     self._log.error(
@@ -186,9 +185,9 @@ class _Daemon:
             for seat in self._seats.values():
                 seat.greet(self._fingerprint, world=self._world)
 
-    def _tell_if_unanswered(self) -> None:
+    def _tell_if_unanswered(self, there_s: float) -> None:
         """The world may wait for others, and says nothing meanwhile; but so it is, too, where it does not hear us."""
-        credentials, there_s = self._options.credentials, monotonic() - self._came_at_s
+        credentials = self._options.credentials
         if self._is_unanswered and credentials is not None and there_s > UNANSWERED_S:
             self._is_unanswered = False
             text = f"the world of {self._mission.name} is there, and has not answered our hello: it may wait for others"
@@ -272,9 +271,8 @@ class _Daemon:
 
     def _on_world(self, key: str, is_there: bool) -> None:
         now_s = monotonic()
-        self._gone_at_s, self._came_at_s = (None, now_s) if is_there else (now_s, inf)
+        self._gone_at_s, self._came_at_s = (None, now_s) if is_there else (now_s, None)
         self._greeted_at_s = -inf
-        self._is_world_there = is_there
         self._mail.wake()
 
     def _is_world_lost(self) -> bool:

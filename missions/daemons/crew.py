@@ -136,7 +136,7 @@ class RemoteCrew:
             if self._patience.lockstep or silent_s > self._patience.lost_s:
                 self._lose(member, f"no answer for {silent_s:.0f} s: lost", was_awaited=self._patience.lockstep)
         if self._patience.lockstep:
-            self._await_frames([member for member in self._members if member.has_spoken(tick)])
+            self._await_frames([member.uid for member in self._members if member.has_spoken(tick)])
         return [member.tell(tick, may_be_back=self._may_be_back(member)) for member in self._members]
 
     def dismiss(self) -> None:
@@ -221,10 +221,10 @@ class RemoteCrew:
             self._mail.wait(range(len(self._members)), timeout_s=LOOK_S)
             self._collect()
 
-    def _await_frames(self, spoken: Sequence[Member]) -> None:
+    def _await_frames(self, speakers: Sequence[int]) -> None:
         """Until what these have sent is where it must be; whose frame does not come is lost with it."""
         deadline_s = self._awake.now_s() + self._patience.tick_s
-        while missing := self._medium.missing([member.uid for member in spoken]):
+        while missing := self._medium.missing(speakers):
             if self._awake.now_s() > deadline_s:
                 for uid in missing:
                     self._members[uid].unsay()

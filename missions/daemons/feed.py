@@ -106,10 +106,7 @@ class Feed:
         """Pass it on; in lockstep wait for a recorder that is behind."""
         if self._kept is None or self._kept.closed or self.failures:
             return
-        if self._kept.failure:
-            self._fail(self._kept.failure)
-            return
-        if self._is_gone():
+        if self._kept.failure or self._is_gone():
             self._fail(f"the recorder has gone: nothing is recorded from {observation.time_s:.1f} s")
             return
         if self._first is None:

@@ -44,7 +44,8 @@ def record(mission: Mission, daemon: DaemonOptions, options: LaunchOptions) -> i
     log = Log("recorder", least=daemon.log_level)
     ending = Ending(log.info)
     with ending.listening(leash=daemon.leash):
-        recorder = recorder_of(mission, n_targets(mission), options)
+        roster = Roster(mission.agents.count, n_targets(mission))
+        recorder = recorder_of(mission, roster.n_targets, options)
         try:
             recorder.__enter__()
         except OutputError as error:
@@ -53,7 +54,7 @@ def record(mission: Mission, daemon: DaemonOptions, options: LaunchOptions) -> i
             sys.stderr.write(f"Watch it in a browser: {recorder.page_url}\n")
         try:
             with open_world(daemon, ending=ending, log=log) as bus:
-                return _Reel(mission, bus, recorder, daemon, ending=ending, log=log).run()
+                return _Reel(mission, roster, bus, recorder, daemon, ending=ending, log=log).run()
         except BusError as error:
             recorder.__exit__(type(error), error, None)
             return unmet(error, mission, daemon, ending=ending, log=log)
@@ -72,7 +73,15 @@ class _Reel:
     """Observations from the bus to a recorder that is open."""
 
     def __init__(
-        self, mission: Mission, bus: Network, recorder: Recorder, daemon: DaemonOptions, *, ending: Ending, log: Log
+        self,
+        mission: Mission,
+        roster: Roster,
+        bus: Network,
+        recorder: Recorder,
+        daemon: DaemonOptions,
+        *,
+        ending: Ending,
+        log: Log,
     ) -> None:
         keys = Keys(mission.name)
         self._recorder = recorder
@@ -83,7 +92,7 @@ class _Reel:
         self._log = log
         # What comes too fast in real time is dropped, as in the recorder's own queue.
         self._inbox: queue.Queue[bytes] = queue.Queue(4 * WINDOW_TICKS)
-        self._roster = Roster(mission.agents.count, n_targets(mission))
+        self._roster = roster
         self._last_tick: int | None = None
         self._missing = 0
         self._over = False

@@ -30,7 +30,6 @@ from missions.problems import InputError
 from missions.progress import Progress, progress_on
 from missions.report import check_files
 from missions.sides.world import WorldSide, fly
-from missions.targets import n_targets
 
 # A process that does not answer for so long does nothing any more, however busy the computer.
 LOST_S = 10.0
@@ -108,7 +107,7 @@ def _run(
     crew = RemoteCrew(
         bus,
         keys=keys,
-        roster=Roster(mission.agents.count, n_targets(mission)),
+        roster=Roster(mission.agents.count, len(side.world.herd.places)),
         medium=side.medium,
         patience=_patience(mission, daemon),
         fingerprint=ours,

@@ -21,6 +21,7 @@ from tests.missions.daemons.swarm import free_endpoint
 from tests.patience import PATIENCE_S
 
 WORLD_CODE = 3
+SOME_LOOKS_S = 5 * launcher.LOOK_EVERY_S
 AWAIT = f"""
 import os, pathlib, signal, time
 folder, deadline_s = pathlib.Path({{folder!r}}), time.monotonic() + {PATIENCE_S}
@@ -43,14 +44,15 @@ NEEDS_IPV6 = pytest.mark.skipif("not has_ipv6()", reason="no IPv6 here")
 
 
 class Watcher(StringIO):
-    """A person who lets the agent go on as soon as the launcher has said that it is waited for."""
+    """A person who lets programs that `AWAIT` it go on as soon as the launcher has said these words."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, words: str) -> None:
         super().__init__()
         self._folder = folder
+        self._words = words
 
     def write(self, text: str) -> int:
-        if "still under way: agent 0" in text:
+        if self._words in " ".join(text.split()):
             (self._folder / "told").touch()
         return super().write(text)
 
@@ -63,7 +65,9 @@ def launched(folder: Path, agent: str, monkeypatch: pytest.MonkeyPatch) -> int:
         ProcessPlan(name="world", identity="world", words=(f"raise SystemExit({WORLD_CODE})",), vital=True),
         ProcessPlan(name="agent 0", identity="agent-0", words=(agent.format(folder=str(folder)),)),
     )
-    return run_processes(plans, endpoint=free_endpoint(), console=Console(file=Watcher(folder)))
+    return run_processes(
+        plans, endpoint=free_endpoint(), console=Console(file=Watcher(folder, "still under way: agent 0"))
+    )
 
 
 def has_ipv6() -> bool:
@@ -125,10 +129,16 @@ def test_a_person_need_not_wait_for_them(tmp_path: Path, monkeypatch: pytest.Mon
     assert launched(tmp_path, HURRY, monkeypatch) == 130
 
 
-def said_of(plans: tuple[ProcessPlan, ...], monkeypatch: pytest.MonkeyPatch, report: Path | None = None) -> str:
+def said_of(
+    plans: tuple[ProcessPlan, ...],
+    monkeypatch: pytest.MonkeyPatch,
+    report: Path | None = None,
+    *,
+    out: StringIO | None = None,
+) -> str:
     """What a launch of these programs says."""
     monkeypatch.setattr(processes, "COMMAND", (processes.COMMAND[0], "-c"))
-    out = StringIO()
+    out = out or StringIO()
     run_processes(plans, endpoint=free_endpoint(), console=Console(file=out, width=40), report=report)
     return " ".join(out.getvalue().split())
 
@@ -145,17 +155,15 @@ def said_of(plans: tuple[ProcessPlan, ...], monkeypatch: pytest.MonkeyPatch, rep
 def test_who_is_dead_for_good_is_told_of_once(
     identity: str, restarts: int, program: str, said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    # The world ends some looks after the last of them.
-    begun = f"import os, pathlib, time; folder = pathlib.Path({str(tmp_path)!r}); "
-    count = begun + "(folder / str(os.getpid())).touch(); "
-    lives = 1 + (restarts if program == KILLED else 0)
-    world = f"{begun}\nwhile len(list(folder.iterdir())) < {lives}: time.sleep(0.01)\ntime.sleep(1.0)"
+    # The world ends some looks after that was told.
+    world = AWAIT.format(folder=str(tmp_path)) + f"time.sleep({SOME_LOOKS_S})"
+    n_again = restarts if program == KILLED else 0
     plans = (
         ProcessPlan(name="world", identity="world", words=(world,), vital=True),
-        ProcessPlan(name="crew", identity=identity, words=(count + program,), restarts=restarts),
+        ProcessPlan(name="crew", identity=identity, words=(program,), restarts=restarts),
     )
-    again = "crew ended with code -9: started again " * (lives - 1)
-    assert said_of(plans, monkeypatch) == f"{again}{said}"
+    again = "crew ended with code -9: started again " * n_again
+    assert said_of(plans, monkeypatch, out=Watcher(tmp_path, "not started again")) == f"{again}{said}"
 
 
 @pytest.mark.parametrize(
